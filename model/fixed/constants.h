@@ -1,0 +1,28 @@
+// The numbers that C++ and RTL share. hw/constants.svh is generated from this file; a test fails
+// when the two differ.
+#pragma once
+
+namespace phongpipe {
+
+// Output: one channel of a pixel is an unsigned integer of kOutputBits; 1 LSB is 1/255 of full scale.
+constexpr int kOutputBits = 8;
+constexpr int kOutputMax = (1 << kOutputBits) - 1;
+
+// Integer guard bits of every series: a Taylor polynomial overshoots 1 when the peak lies inside the
+// triangle, by less than a factor of two while max |Nᵢ − C| / |C| < 1.86.
+constexpr int kGuardBits = 1;
+
+constexpr int kCoordinateBits = 12;                  // x and y, 0 … 4095
+constexpr int kLengthBits = kCoordinateBits + 1;     // pixels in a span, 1 … 4096
+
+// Clocks from the acceptance of a span to its first pixel at the output of pixel_datapath, and at
+// the same time the number of pixels the datapath holds.
+constexpr int kDatapathLatency = 4;
+
+// Legal ranges of the parameters: registers of up to 40 bits, whose exact starts fit in 64.
+constexpr int kMinDiffuseFraction = 4, kMaxDiffuseFraction = 30;
+constexpr int kMinSpecularFraction = 1, kMaxSpecularFraction = 25;
+constexpr int kMinRomAddressBits = 6, kMaxRomAddressBits = 13;
+constexpr int kMinRomDataBits = 4, kMaxRomDataBits = 12;
+
+}  // namespace phongpipe

@@ -1,0 +1,22 @@
+// Which pixels a triangle covers: exact integer edge functions and the top-left rule, so that
+// triangles sharing an edge cover each pixel once.
+#pragma once
+
+#include <vector>
+
+#include "model/fixed/span.h"
+#include "model/scene/geometry.h"
+
+namespace phongpipe {
+
+// The non-empty rows of a triangle inside the image, from the top down; `rows` is overwritten. A
+// pixel is covered when its centre is inside, or on a top or left edge. Either orientation.
+void cover(const ScreenTriangle& triangle, int width, int height, std::vector<RowSpan>& rows);
+
+// The covered pixel whose centre is nearest to the triangle's centroid; `rows` is not empty.
+struct Pixel {
+  int x = 0, y = 0;
+};
+Pixel expansion_pixel(const ScreenTriangle& triangle, const std::vector<RowSpan>& rows);
+
+}  // namespace phongpipe

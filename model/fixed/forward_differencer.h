@@ -1,0 +1,53 @@
+// One series of the pixel loop: v' = v + d1, d1' = d1 + d2. Two additions a pixel, no rounding; all
+// three registers wrap at the width, which is exact as long as the values of covered pixels fit.
+#pragma once
+
+#include <cstdint>
+
+#include "model/fixed/fixed_point.h"
+
+namespace phongpipe {
+
+// T5 x² + T4 xy + T3 y² + T2 x + T1 y + T0 with x and y in whole pixels from the expansion point.
+struct FixedQuadratic {
+  std::int64_t t0 = 0, t1 = 0, t2 = 0, t3 = 0, t4 = 0, t5 = 0;
+
+  // Value and first difference along x at (x, y), modulo 2^64.
+  std::int64_t value(std::int64_t x, std::int64_t y) const {
+    const std::int64_t along_x = wrap_add(wrap_add(wrap_mul(t5, x), wrap_mul(t4, y)), t2);
+    const std::int64_t along_y = wrap_add(wrap_mul(t3, y), t1);
+    return wrap_add(wrap_add(wrap_mul(along_x, x), wrap_mul(along_y, y)), t0);
+  }
+  std::int64_t difference(std::int64_t x, std::int64_t y) const {
+    return wrap_add(wrap_add(wrap_mul(t5, 2 * x + 1), wrap_mul(t4, y)), t2);
+  }
+};
+
+// What the datapath's registers are loaded with at the start of a span.
+struct SeriesStart {
+  std::int64_t v = 0;   // value at the first pixel
+  std::int64_t d1 = 0;  // to the next pixel
+  std::int64_t d2 = 0;  // difference of the differences, 2 T5
+};
+
+class ForwardDifferencer {
+ public:
+  explicit ForwardDifferencer(int width) : width_(width) {}
+
+  void load(const SeriesStart& start) {
+    v_ = wrap_to(start.v, width_);
+    d1_ = wrap_to(start.d1, width_);
+    d2_ = wrap_to(start.d2, width_);
+  }
+  void step() {
+    v_ = wrap_to(wrap_add(v_, d1_), width_);
+    d1_ = wrap_to(wrap_add(d1_, d2_), width_);
+  }
+  std::int64_t v() const { return v_; }
+
+ private:
+  int width_;
+  std::int64_t v_ = 0, d1_ = 0, d2_ = 0;
+};
+
+}  // namespace phongpipe

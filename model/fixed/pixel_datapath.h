@@ -1,0 +1,51 @@
+// pixel_datapath: forward_differencer × series, exponent_rom and color_sum, one span at a time.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/fixed/frame_setup.h"
+#include "model/fixed/span.h"
+
+namespace phongpipe {
+
+enum class Evaluation {
+  stepping,  // pixel by pixel through the blocks: the definition
+  portable,  // closed form, four pixels at a time, any machine
+  avx2,      // the same code, eight at a time, with gathered ROM reads
+};
+
+// The fastest evaluation this machine can run.
+Evaluation best_evaluation();
+
+struct LaneInputs;
+
+class PixelDatapath {
+ public:
+  explicit PixelDatapath(const DatapathConfiguration& configuration,
+                         Evaluation evaluation = best_evaluation());
+
+  // Loads ROMs and levels; needed before the first span.
+  void load_material(const MaterialSetup& material);
+
+  // Colours of the span's pixels, channel 0 in the low byte. `colors` must have room for the length
+  // rounded up to a multiple of kLanes; what lies behind the length is overwritten with rubbish.
+  static constexpr int kLanes = 8;
+  static std::size_t padded(int length) {
+    return static_cast<std::size_t>((length + kLanes - 1) / kLanes * kLanes);
+  }
+  void shade(const Span& span, std::uint32_t* colors) const;
+
+ private:
+  void shade_stepping(const Span& span, std::uint32_t* colors) const;
+
+  DatapathConfiguration configuration_;
+  Evaluation evaluation_;
+  void (*shade_lanes_)(const LaneInputs&, const Span&, std::uint32_t*);
+  std::array<std::int64_t, 3> level_ = {};
+  // Words aligned to the fraction of color_sum, as it adds them.
+  std::array<std::vector<std::int32_t>, 3> aligned_rom_;
+  std::array<const std::int32_t*, 3> rom_ = {};
+};
+
+}  // namespace phongpipe

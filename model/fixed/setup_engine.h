@@ -1,0 +1,46 @@
+// setup_engine: the coefficients T_i of every series of a triangle, each rounded once.
+#pragma once
+
+#include "model/fixed/frame_setup.h"
+#include "model/fixed/span.h"
+
+namespace phongpipe {
+
+// Coefficients about the centre of pixel (x, y). Q-formats: diffuse and gate have
+// diffuse_fraction_bits below one output LSB, specular specular_fraction_bits below one ROM address,
+// each kSetupExtraBits more with Anchor::span; depth kDepthFraction. The level (ambient and the
+// rounding half) is folded into the T0 of diffuse. Rounding: to nearest. Overflow of 63 bits is
+// reported.
+struct TriangleSetup {
+  int x = 0, y = 0;  // the expansion point's pixel
+  std::uint32_t triangle = 0;
+  std::uint32_t material = 0;
+  std::array<FixedQuadratic, 3> diffuse;
+  FixedQuadratic specular;
+  FixedQuadratic gate;
+  std::int64_t depth = 0, depth_x = 0, depth_y = 0;
+  bool overflow = false;
+};
+
+class SetupEngine {
+ public:
+  SetupEngine(const FrameSetup& frame, const Geometry& geometry);
+
+  // (x, y): the pixel to expand about; it should be a covered one near the centroid, so that the
+  // series is never evaluated outside the triangle's own normals.
+  TriangleSetup set_up(std::uint32_t triangle, int x, int y) const;
+
+  // The same before rounding, for the split of errors.
+  TriangleCoefficients<double> coefficients(std::uint32_t triangle, int x, int y) const;
+
+ private:
+  const FrameSetup* frame_;
+  const Geometry* geometry_;
+};
+
+// Fraction bits the T_i are held with, for a series of `fraction_bits` in the datapath.
+inline int setup_fraction_bits(const DatapathConfiguration& configuration, int fraction_bits) {
+  return fraction_bits + (configuration.anchor == Anchor::span ? kSetupExtraBits : 0);
+}
+
+}  // namespace phongpipe

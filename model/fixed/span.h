@@ -1,0 +1,40 @@
+// What travels from the span walker to the pixel datapath and the framebuffer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "model/fixed/forward_differencer.h"
+
+namespace phongpipe {
+
+// Covered pixels of one row of a triangle.
+struct RowSpan {
+  int x = 0, y = 0, length = 0;
+};
+
+struct Span {
+  RowSpan row;
+  std::uint32_t triangle = 0;  // its place in Geometry::triangles
+  std::uint32_t material = 0;
+  std::array<SeriesStart, 3> diffuse;
+  SeriesStart specular;
+  SeriesStart gate;
+  std::int64_t depth = 0, depth_step = 0;  // kDepthFraction bits below one step of depth
+};
+
+// Fraction bits of the depth series; a span of 4096 pixels drifts by less than a step.
+constexpr int kDepthFraction = 16;
+
+// A pixel as it leaves pixel_datapath: channel 0 in the low byte.
+struct ShadedPixel {
+  std::uint16_t x = 0, y = 0;
+  std::uint32_t color = 0;
+
+  friend bool operator==(const ShadedPixel& a, const ShadedPixel& b) {
+    return a.x == b.x && a.y == b.y && a.color == b.color;
+  }
+  friend bool operator!=(const ShadedPixel& a, const ShadedPixel& b) { return !(a == b); }
+};
+
+}  // namespace phongpipe

@@ -1,0 +1,67 @@
+// From a scene to the triangles the setup engine receives: transformed, clipped, culled, snapped.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "model/scene/scene.h"
+
+namespace phongpipe {
+
+constexpr int kSubpixelBits = 8;
+constexpr int kSubpixels = 1 << kSubpixelBits;  // to a pixel: the grid vertices sit on
+constexpr int kGuardBand = 8192;                // pixels beyond the image a vertex may lie
+
+struct ScreenVertex {
+  std::int32_t x = 0;  // 1/256 pixel from the left edge of the image; pixel centres at .5 pixel
+  std::int32_t y = 0;  // 1/256 pixel from the top edge, downwards
+  double z = 0;        // depth, linear in screen space, grows away from the eye: 1 - near/w in
+                       // perspective, the distance along the view in an orthographic camera
+  Vec3 normal = Vec3::Zero();    // world axes (screen axes for a scene of screen-space triangles);
+                                 // unit, except where clipping made the vertex
+  Vec3 eye = Vec3::Zero();       // surface → eye: true length for a local viewer, else unit
+  Vec3 position = Vec3::Zero();  // the surface point, same axes
+};
+
+// A triangle of a mesh turns counter-clockwise on the screen, so that its signed area is negative;
+// one of a CSV file turns either way, in the order of the file.
+struct ScreenTriangle {
+  std::array<ScreenVertex, 3> vertices;
+  std::uint32_t material = 0;  // index into Geometry::materials
+};
+
+struct Geometry {
+  std::vector<ScreenTriangle> triangles;  // in the order of the scene; none has zero area
+  std::vector<Material> materials;        // those in use, in order of first use
+  std::size_t triangles_read = 0;  // before clipping and culling; each is kept (whole or in pieces)
+                                   // or counted in one of culled_back_facing, culled_outside and
+                                   // degenerate
+  std::size_t culled_back_facing = 0;
+  std::size_t culled_outside = 0;  // wholly outside the view
+  std::size_t clipped = 0;         // kept, but cut by the near plane or the guard band
+  std::size_t degenerate = 0;      // zero area after snapping
+  std::vector<std::string> notes;  // what a user should know, such as missing normals generated
+};
+
+// To the nearest 1/256 pixel, halves upwards, so that shifting by whole pixels changes nothing.
+std::int32_t snap(double pixels);
+
+// Twice the area in (1/256 pixel)², negative where the vertices turn counter-clockwise on the
+// screen.
+std::int64_t signed_area(const ScreenTriangle& triangle);
+
+// Reads the meshes and projects them. Throws InputError.
+Geometry make_geometry(const Scene& scene);
+
+// The vector from the surface to light i at a vertex: true length for point and spot lights, unit
+// for directional ones.
+Vec3 light_vector(const Light& light, const ScreenVertex& vertex);
+
+// The columns of DESIGN: x0,y0,z0,nx0,…,nz2, ex0,…,ez2, then l0x0,… per light, then material.
+// Numbers are printed so that reading them back gives the same doubles.
+void dump_triangles(std::ostream& out, const Scene& scene, const Geometry& geometry);
+
+}  // namespace phongpipe

@@ -1,0 +1,37 @@
+// Text files in lines, words and numbers.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace phongpipe {
+
+// Throws InputError for a file that is missing, empty, unreadable or a directory.
+std::string read_whole_file(const std::filesystem::path& file);
+
+// Walks through a text line by line, without the line ends (\n or \r\n).
+class LineReader {
+ public:
+  explicit LineReader(std::string_view text) : rest_(text) {}
+  bool next(std::string_view& line);
+  unsigned number() const { return number_; }      // of the last line, from 1
+  std::string_view rest() const { return rest_; }  // what follows it
+
+ private:
+  std::string_view rest_;
+  unsigned number_ = 0;
+};
+
+std::string_view trimmed(std::string_view text);
+std::vector<std::string_view> split(std::string_view line, char separator);
+// Between spaces and tabs, none of them empty.
+std::vector<std::string_view> words(std::string_view line);
+
+// Empty when the whole of `word` is not a finite number.
+std::optional<double> parse_number(std::string_view word);
+std::optional<long> parse_integer(std::string_view word);
+
+}  // namespace phongpipe

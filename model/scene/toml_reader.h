@@ -1,0 +1,89 @@
+// Checked reading of TOML: every mistake becomes an InputError that names file and line.
+//
+// Each getter registers its key. finish() then refuses the keys nobody asked for, so what a table
+// may contain is said once, by the code that reads it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace phongpipe {
+
+struct NumberRange {  // inclusive
+  double min = std::numeric_limits<double>::lowest();
+  double max = std::numeric_limits<double>::max();
+};
+
+// A handle to one table of a parsed file; copies share the file and the registered keys.
+class TomlTable {
+ public:
+  static TomlTable read_file(const std::filesystem::path& file);
+
+  const std::filesystem::path& file() const;
+  unsigned line() const;                      // of the table
+  unsigned line(std::string_view key) const;  // of the key, or of the table when it is absent
+  bool has(std::string_view key) const;       // registers the key
+
+  // A getter without a fallback requires the key.
+  double number(std::string_view key, NumberRange range) const;
+  double number(std::string_view key, NumberRange range, double fallback) const;
+  int integer(std::string_view key, int min, int max) const;
+  int integer(std::string_view key, int min, int max, int fallback) const;
+  bool boolean(std::string_view key) const;
+  bool boolean(std::string_view key, bool fallback) const;
+  std::string text(std::string_view key) const;
+  std::string text(std::string_view key, std::string_view fallback) const;
+  // [a, b, c]
+  std::array<double, 3> triple(std::string_view key, NumberRange range) const;
+  // [r, g, b], or one number for all three; 0 to 1.
+  std::array<double, 3> color(std::string_view key) const;
+  // [a, b], whole numbers
+  std::array<int, 2> integer_pair(std::string_view key, int min, int max) const;
+
+  template <class Enum>
+  using Choices = std::initializer_list<std::pair<std::string_view, Enum>>;
+  template <class Enum>
+  Enum choice(std::string_view key, Choices<Enum> choices) const {
+    std::vector<std::string_view> names;
+    for (const auto& [name, value] : choices) {
+      names.push_back(name);
+    }
+    return (choices.begin() + choice_index(key, names))->second;
+  }
+  template <class Enum>
+  Enum choice(std::string_view key, Choices<Enum> choices, Enum fallback) const {
+    return has(key) ? choice(key, choices) : fallback;
+  }
+
+  TomlTable table(std::string_view key) const;  // [key]
+  std::optional<TomlTable> optional_table(std::string_view key) const;
+  // [[key]], at least one
+  std::vector<TomlTable> tables(std::string_view key) const;
+  // [key.NAME] in the order of the file; none when the key is absent
+  std::vector<std::pair<std::string, TomlTable>> named_tables(std::string_view key) const;
+
+  // The key is known but does not belong here: fails with the reason when it is present.
+  void refuse(std::string_view key, const std::string& reason) const;
+  // Unknown keys are errors. To be called when all of a table is read.
+  void finish() const;
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+
+ private:
+  struct State;
+  explicit TomlTable(std::shared_ptr<State> state) : state_(std::move(state)) {}
+  std::ptrdiff_t choice_index(std::string_view key,
+                              const std::vector<std::string_view>& names) const;
+
+  std::shared_ptr<State> state_;
+};
+
+}  // namespace phongpipe

@@ -1,0 +1,83 @@
+// A scalar that records what is done to it. Running a formula with it gives the operations executed
+// and their dependences: operation counts and the setup engine's schedule come from the same
+// templates as the values.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+namespace phongpipe {
+
+enum class Operation { add, multiply, rsqrt };
+
+struct OperationCounts {
+  std::size_t add = 0, multiply = 0, rsqrt = 0;
+};
+
+// Nodes in the order of execution; an operand is the index of an earlier node or kInput.
+struct Dataflow {
+  static constexpr int kInput = -1;
+  struct Node {
+    Operation operation;
+    int left;
+    int right;  // kInput for rsqrt
+  };
+  std::vector<Node> nodes;
+
+  OperationCounts counts() const;
+};
+
+// Records into the Dataflow of the Recording that is alive; constants and inputs are free.
+class Recorded {
+ public:
+  Recorded() = default;
+  Recorded(double) {}  // NOLINT(google-explicit-constructor): constants appear in the formulas
+
+  Recorded operator-() const { return *this; }  // a sign flip needs no unit
+  friend Recorded operator+(const Recorded& a, const Recorded& b) {
+    return Recorded(Operation::add, a.node_, b.node_);
+  }
+  friend Recorded operator-(const Recorded& a, const Recorded& b) { return a + b; }
+  friend Recorded operator*(const Recorded& a, const Recorded& b) {
+    return Recorded(Operation::multiply, a.node_, b.node_);
+  }
+  Recorded& operator+=(const Recorded& b) { return *this = *this + b; }
+  Recorded& operator-=(const Recorded& b) { return *this = *this - b; }
+  Recorded& operator*=(const Recorded& b) { return *this = *this * b; }
+  friend Recorded rsqrt(const Recorded& x) {
+    return Recorded(Operation::rsqrt, x.node_, Dataflow::kInput);
+  }
+  friend Recorded half(const Recorded& x) { return x; }
+  friend Recorded twice(const Recorded& x) { return x; }
+
+ private:
+  Recorded(Operation operation, int left, int right);
+  int node_ = Dataflow::kInput;
+};
+
+// While alive, what Recorded does goes into dataflow(). Not nested; one a thread.
+class Recording {
+ public:
+  Recording();
+  ~Recording();
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+  const Dataflow& dataflow() const { return dataflow_; }
+
+ private:
+  friend class Recorded;
+  Dataflow dataflow_;
+};
+
+}  // namespace phongpipe
+
+namespace Eigen {
+template <>
+struct NumTraits<phongpipe::Recorded> : NumTraits<double> {
+  using Real = phongpipe::Recorded;
+  using NonInteger = phongpipe::Recorded;
+  using Nested = phongpipe::Recorded;
+  enum { RequireInitialization = 1 };
+};
+}  // namespace Eigen

@@ -1,0 +1,75 @@
+// The setup engine's arithmetic: from the vertices of a triangle to the unrounded coefficients of
+// every series the datapath steps. Run with double it gives values, with Recorded its dataflow.
+#pragma once
+
+#include <array>
+
+#include "model/shading/taylor.h"
+
+namespace phongpipe {
+
+// Which series a triangle needs, and which form the halfway vector takes.
+struct SeriesPlan {
+  int channels = 1;
+  bool local_viewer = false;
+  bool gate_series = false;
+};
+
+template <typename T>
+struct TriangleInput {
+  std::array<T, 3> x, y, z;  // x and y in pixels from the expansion point
+  std::array<Vector3<T>, 3> normal;
+  std::array<Vector3<T>, 3> eye;  // surface → eye, of any length; read for a local viewer only
+};
+
+// What is the same for all triangles of a material.
+template <typename T>
+struct LightInput {
+  Vector3<T> to_light;  // unit
+  Vector3<T> halfway;   // unit; read for a viewer at infinity only
+  std::array<T, 3> diffuse_scale;
+  T specular_scale;
+  T gate_scale;
+};
+
+template <typename T>
+struct TriangleCoefficients {
+  std::array<Quadratic<T>, 3> diffuse;
+  Quadratic<T> specular;
+  Quadratic<T> gate;
+  Linear<T> depth;
+};
+
+template <typename T>
+TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInput<T>& triangle,
+                                       const LightInput<T>& light) {
+  const Interpolator<T> interpolate(triangle.x, triangle.y);
+  const auto& n = triangle.normal;
+  const NormalExpansion<T> expansion(interpolate(n[0], n[1], n[2]));
+
+  TriangleCoefficients<T> result;
+  result.depth = interpolate(triangle.z[0], triangle.z[1], triangle.z[2]);
+
+  const Quadratic<T> n_dot_l = expansion.infinite(light.to_light);
+  for (int c = 0; c < plan.channels; ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    result.diffuse[channel] = n_dot_l.scaled(light.diffuse_scale[channel]);
+  }
+  if (plan.gate_series) result.gate = n_dot_l.scaled(light.gate_scale);
+
+  if (plan.local_viewer) {
+    // The paper's H = E + L, with E interpolated between unit vectors.
+    std::array<Vector3<T>, 3> halfway;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector3<T>& e = triangle.eye[i];
+      halfway[i] = e * rsqrt(e.dot(e)) + light.to_light;
+    }
+    result.specular = expansion.finite(interpolate(halfway[0], halfway[1], halfway[2]))
+                          .scaled(light.specular_scale);
+  } else {
+    result.specular = expansion.infinite(light.halfway).scaled(light.specular_scale);
+  }
+  return result;
+}
+
+}  // namespace phongpipe

@@ -1,0 +1,45 @@
+// framebuffer by the clock.
+#pragma once
+
+#include "sim/clocked_fifo.h"
+#include "sim/frame_context.h"
+
+namespace phongpipe::by_clock {
+
+class Framebuffer : public sc_core::sc_module {
+ public:
+  Framebuffer(const sc_core::sc_module_name& name, FrameContext& context, sc_core::sc_clock& clk,
+              ClockedFifo<DepthPixel>& pixels)
+      : sc_core::sc_module(name), context_(context), pixels_(pixels), memory_(context.frame) {
+    SC_METHOD(clock);
+    sensitive << clk.posedge_event();
+    dont_initialize();
+  }
+  SC_HAS_PROCESS(Framebuffer);
+
+  const std::vector<std::uint32_t>& colors() const { return memory_.colors(); }
+  bool busy() const { return busy_ > 0; }
+  std::uint64_t moved() const { return place_; }
+
+ private:
+  void clock() {
+    const Cycle cycle = cycle_++;
+    if (busy_ > 0) --busy_;
+    if (busy_ > 0 || pixels_.empty()) return;
+    const DepthPixel& pixel = pixels_.front();
+    // A wrong place must not write outside the image; the comparison of streams will tell it.
+    const bool inside = pixel.pixel.x < memory_.width() && pixel.pixel.y < memory_.height();
+    const bool written = inside && memory_.write(pixel.pixel, pixel.depth, place_);
+    busy_ = context_.framebuffer_cycles(written, place_++);
+    context_.result.frame_cycles = cycle + busy_;
+    pixels_.pop();
+  }
+
+  FrameContext& context_;
+  ClockedFifo<DepthPixel>& pixels_;
+  phongpipe::Framebuffer memory_;
+  Cycle cycle_ = 0, busy_ = 0;
+  std::uint32_t place_ = 0;
+};
+
+}  // namespace phongpipe::by_clock

@@ -1,0 +1,67 @@
+// pixel_datapath by the clock: a ClockedDatapath, the model's or the RTL's, between two queues.
+#pragma once
+
+#include <deque>
+
+#include "sim/clocked_fifo.h"
+#include "sim/datapath_driver.h"
+#include "sim/frame_context.h"
+
+namespace phongpipe::by_clock {
+
+class PixelDatapath : public sc_core::sc_module {
+ public:
+  PixelDatapath(const sc_core::sc_module_name& name, FrameContext& context, sc_core::sc_clock& clk,
+                ClockedFifo<Span>& spans, ClockedFifo<DepthPixel>& pixels,
+                ClockedDatapath& datapath)
+      : sc_core::sc_module(name),
+        context_(context),
+        spans_(spans),
+        pixels_(pixels),
+        driver_(context.frame, datapath) {
+    SC_METHOD(clock);
+    sensitive << clk.posedge_event();
+    dont_initialize();
+  }
+  SC_HAS_PROCESS(PixelDatapath);
+
+  std::int64_t in_flight() const { return driver_.pixels_in_flight(); }
+  std::uint64_t moved() const { return moved_; }
+
+ private:
+  void clock() {
+    const Cycle cycle = cycle_++;
+    const DatapathDriver::Outcome outcome =
+        driver_.clock(spans_.empty() ? nullptr : &spans_.front(), !pixels_.full());
+    if (outcome.span_taken) {
+      in_flight_.push_back(spans_.front());
+      spans_.pop();
+    }
+    if (outcome.pixel_taken) deliver(outcome.pixel, cycle);
+    if (outcome.loading) ++context_.result.rom_load_cycles;
+    context_.result.datapath_busy_cycles = driver_.busy_clocks();
+    if (outcome.span_taken || outcome.pixel_taken || outcome.loading) ++moved_;
+  }
+
+  void deliver(const ShadedPixel& pixel, Cycle cycle) {
+    context_.record(pixel, cycle);
+    if (in_flight_.empty()) return;  // a pixel nobody asked for; the comparison will tell
+    const Span& span = in_flight_.front();
+    pixels_.push({pixel, phongpipe::Framebuffer::depth(context_.frame, span, delivered_)});
+    if (++delivered_ == span.row.length) {
+      in_flight_.pop_front();
+      delivered_ = 0;
+    }
+  }
+
+  FrameContext& context_;
+  ClockedFifo<Span>& spans_;
+  ClockedFifo<DepthPixel>& pixels_;
+  DatapathDriver driver_;
+  Cycle cycle_ = 0;
+  std::deque<Span> in_flight_;  // their depths travel with the pixels
+  int delivered_ = 0;           // pixels of the first of them
+  std::uint64_t moved_ = 0;
+};
+
+}  // namespace phongpipe::by_clock

@@ -1,0 +1,51 @@
+// span_walker by the clock.
+#pragma once
+
+#include "sim/clocked_fifo.h"
+#include "sim/frame_context.h"
+
+namespace phongpipe::by_clock {
+
+class SpanWalker : public sc_core::sc_module {
+ public:
+  SpanWalker(const sc_core::sc_module_name& name, FrameContext& context, sc_core::sc_clock& clk,
+             ClockedFifo<WorkHandle>& triangles, ClockedFifo<Span>& spans)
+      : sc_core::sc_module(name), context_(context), triangles_(triangles), spans_(spans) {
+    SC_METHOD(clock);
+    sensitive << clk.posedge_event();
+    dont_initialize();
+  }
+  SC_HAS_PROCESS(SpanWalker);
+
+  bool idle() const { return work_ == nullptr; }
+  std::uint64_t moved() const { return written_; }
+
+ private:
+  void clock() {
+    if (idle()) {
+      if (triangles_.empty()) return;
+      work_ = triangles_.front();
+      triangles_.pop();
+      row_ = 0;
+      cycles_left_ = context_.configuration.walker_triangle_cycles;
+      return;
+    }
+    if (cycles_left_ > 0) --cycles_left_;
+    if (cycles_left_ > 0 || spans_.full()) return;
+    bool overflow = false;  // the model's account counts it
+    spans_.push(context_.front_end.span_walker().start(work_->setup, work_->rows[row_], overflow));
+    ++written_;
+    cycles_left_ = context_.configuration.walker_row_cycles;
+    if (++row_ == work_->rows.size()) work_ = nullptr;
+  }
+
+  FrameContext& context_;
+  ClockedFifo<WorkHandle>& triangles_;
+  ClockedFifo<Span>& spans_;
+  WorkHandle work_;
+  std::size_t row_ = 0;
+  int cycles_left_ = 0;
+  std::uint64_t written_ = 0;
+};
+
+}  // namespace phongpipe::by_clock

@@ -1,0 +1,32 @@
+// setup_engine by the span: one triangle after the other, each for the cycles of its schedule.
+#pragma once
+
+#include "sim/frame_context.h"
+
+namespace phongpipe::by_span {
+
+class SetupEngine : public sc_core::sc_module {
+ public:
+  SetupEngine(const sc_core::sc_module_name& name, FrameContext& context,
+              TimestampedFifo<WorkHandle>& triangles)
+      : sc_core::sc_module(name), context_(context), triangles_(triangles) {
+    SC_THREAD(run);
+  }
+  SC_HAS_PROCESS(SetupEngine);
+
+ private:
+  void run() {
+    Cycle written = -1;
+    for (std::uint32_t triangle = 0; triangle < context_.front_end.triangles(); ++triangle) {
+      auto work = std::make_shared<TriangleWork>();
+      if (!context_.front_end.set_up(triangle, *work)) continue;
+      written = triangles_.write(std::move(work), written + context_.result.setup_cycles);
+    }
+    triangles_.close();
+  }
+
+  FrameContext& context_;
+  TimestampedFifo<WorkHandle>& triangles_;
+};
+
+}  // namespace phongpipe::by_span

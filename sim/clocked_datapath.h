@@ -1,0 +1,33 @@
+// The ports of pixel_datapath, clock by clock: what the SystemC pipeline drives, whether the model's
+// values or the Verilated RTL are behind them.
+#pragma once
+
+#include "model/fixed/frame_setup.h"
+#include "model/fixed/span.h"
+
+namespace phongpipe {
+
+struct DatapathInputs {
+  const Span* span = nullptr;             // span_valid where not null; held until span_ready
+  const MaterialSetup* material = nullptr;  // of the span, and of the table that is written
+  bool pixel_ready = false;
+  bool rom_write = false;  // one word of every channel at rom_address
+  int rom_address = 0;
+};
+
+struct DatapathOutputs {
+  bool span_ready = false;
+  bool pixel_valid = false;
+  ShadedPixel pixel;
+};
+
+class ClockedDatapath {
+ public:
+  virtual ~ClockedDatapath() = default;
+  // Synchronous reset, one clock; the table keeps its words.
+  virtual void reset() = 0;
+  // One clock: outputs as they stand before its edge, given these inputs.
+  virtual DatapathOutputs clock(const DatapathInputs& inputs) = 0;
+};
+
+}  // namespace phongpipe

@@ -1,0 +1,37 @@
+// What stands before the ports of pixel_datapath: presents spans, and for a new material lets the
+// datapath run empty and loads its table, one word a clock.
+#pragma once
+
+#include "sim/clocked_datapath.h"
+
+namespace phongpipe {
+
+class DatapathDriver {
+ public:
+  DatapathDriver(const FrameSetup& frame, ClockedDatapath& datapath);
+
+  struct Outcome {
+    bool span_taken = false;
+    bool pixel_taken = false;
+    ShadedPixel pixel;
+    bool loading = false;  // a word was written
+  };
+  // One clock. `span`: the front of the queue, or null; the same one until it is taken.
+  Outcome clock(const Span* span, bool pixel_ready);
+
+  std::int64_t pixels_in_flight() const { return pixels_in_flight_; }
+  // Clocks in which the datapath held a pixel or was offered a span.
+  std::int64_t busy_clocks() const { return busy_clocks_; }
+
+ private:
+  static constexpr std::uint32_t kNoMaterial = ~std::uint32_t{0};
+
+  const FrameSetup* frame_;
+  ClockedDatapath* datapath_;
+  std::uint32_t loaded_ = kNoMaterial;
+  int next_word_ = 0;
+  std::int64_t pixels_in_flight_ = 0;
+  std::int64_t busy_clocks_ = 0;
+};
+
+}  // namespace phongpipe

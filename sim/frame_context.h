@@ -1,0 +1,55 @@
+// What all modules of one simulation share.
+#pragma once
+
+#include <memory>
+
+#include "model/fixed/front_end.h"
+#include "sim/pipeline.h"
+#include "sim/timestamped_fifo.h"
+
+namespace phongpipe {
+
+struct FrameContext {
+  const FrameSetup& frame;
+  const PipelineConfiguration& configuration;
+  const SimulationOptions& options;
+  FrontEnd front_end;
+  SimulationResult& result;
+
+  // Cycles the framebuffer spends on pixel `place` of the stream.
+  Cycle framebuffer_cycles(bool written, std::uint32_t place) const {
+    const Cycle cycles = written ? configuration.framebuffer_write_cycles
+                                 : configuration.framebuffer_test_cycles;
+    if (options.stall_percent == 0) return cycles;
+    const std::uint32_t random = scramble(place * 2654435769U + options.stall_seed);
+    const bool stalled = random % 100 < static_cast<std::uint32_t>(options.stall_percent);
+    return cycles + (stalled ? 1 + (random >> 16) % 8 : 0);
+  }
+
+  void record(const ShadedPixel& pixel, Cycle cycle) {
+    result.stream.push_back(pixel);
+    result.pixel_cycles.push_back(static_cast<std::uint32_t>(cycle));
+    result.datapath_cycles = cycle + 1;
+  }
+
+ private:
+  // So that the same pixel stalls whatever the detail and whatever is behind the ports; the mixing
+  // constants are those of the finaliser of MurmurHash3.
+  static std::uint32_t scramble(std::uint32_t x) {
+    x ^= x >> 16;
+    x *= 0x85ebca6bU;
+    x ^= x >> 13;
+    x *= 0xc2b2ae35U;
+    return x ^ (x >> 16);
+  }
+};
+
+using WorkHandle = std::shared_ptr<const TriangleWork>;
+
+// A pixel on its way to the framebuffer.
+struct DepthPixel {
+  ShadedPixel pixel;
+  std::uint32_t depth = 0;
+};
+
+}  // namespace phongpipe

@@ -1,0 +1,82 @@
+#include "sim/pipeline.h"
+
+#include <memory>
+#include <stdexcept>
+
+#include "sim/by_clock/watchdog.h"
+#include "sim/by_span/clocked_pixel_datapath.h"
+#include "sim/by_span/pixel_datapath.h"
+#include "sim/by_span/setup_engine.h"
+#include "sim/by_span/span_walker.h"
+#include "sim/datapath_pipeline.h"
+#include "sim/schedule.h"
+
+namespace phongpipe {
+namespace {
+
+void simulate_by_span(FrameContext& context) {
+  const PipelineConfiguration& configuration = context.configuration;
+  TimestampedFifo<WorkHandle> triangles("triangles", configuration.triangle_fifo);
+  TimestampedFifo<Span> spans("spans", configuration.span_fifo);
+  by_span::SetupEngine setup_engine("setup_engine", context, triangles);
+  by_span::SpanWalker span_walker("span_walker", context, triangles, spans);
+  by_span::Framebuffer framebuffer("framebuffer", context);
+  std::unique_ptr<sc_core::sc_module> pixel_datapath;
+  if (context.options.datapath == nullptr) {
+    pixel_datapath =
+        std::make_unique<by_span::PixelDatapath>("pixel_datapath", context, spans, framebuffer);
+  } else {
+    pixel_datapath = std::make_unique<by_span::ClockedPixelDatapath>(
+        "pixel_datapath", context, spans, framebuffer, *context.options.datapath);
+  }
+  sc_core::sc_start();
+  context.result.frame_colors = framebuffer.colors();
+}
+
+void simulate_by_clock(FrameContext& context) {
+  const PipelineConfiguration& configuration = context.configuration;
+  const sc_core::sc_time period(1, sc_core::SC_NS);  // stands for one clock, whatever its length
+  // The first edge comes after the initialisation, so that every module sees all of them.
+  sc_core::sc_clock clk("clk", period, 0.5, period);
+  ClockedFifo<WorkHandle> triangles("triangles", configuration.triangle_fifo);
+  ClockedFifo<Span> spans("spans", configuration.span_fifo);
+  ClockedFifo<DepthPixel> pixels("pixels", configuration.pixel_fifo);
+  DatapathPipeline own_datapath(context.frame.configuration);
+  ClockedDatapath& datapath =
+      context.options.datapath != nullptr ? *context.options.datapath : own_datapath;
+  by_clock::SetupEngine setup_engine("setup_engine", context, clk, triangles);
+  by_clock::SpanWalker span_walker("span_walker", context, clk, triangles, spans);
+  by_clock::PixelDatapath pixel_datapath("pixel_datapath", context, clk, spans, pixels, datapath);
+  by_clock::Framebuffer framebuffer("framebuffer", context, clk, pixels);
+  const by_clock::Watchdog watchdog("watchdog", context, period,
+                                    {setup_engine, span_walker, pixel_datapath, framebuffer,
+                                     triangles, spans, pixels});
+  sc_core::sc_start();
+  context.result.frame_colors = framebuffer.colors();
+}
+
+}  // namespace
+
+SimulationResult simulate(const FrameSetup& frame, const Geometry& geometry,
+                          const PipelineConfiguration& configuration,
+                          const SimulationOptions& options) {
+  static bool simulated = false;
+  if (simulated) throw std::logic_error("SystemC elaborates once a process; simulate in a child");
+  simulated = true;
+  configuration.check();
+
+  SimulationResult result;
+  result.setup_cycles = schedule_cycles(record_setup(frame.plan), configuration);
+  FrameContext context{frame, configuration, options, FrontEnd(frame, geometry), result};
+  if (options.detail == Detail::span) {
+    simulate_by_span(context);
+  } else {
+    simulate_by_clock(context);
+  }
+  return result;
+}
+
+}  // namespace phongpipe
+
+// The SystemC library has a main that calls this; our programs have their own.
+int sc_main(int, char*[]) { return 0; }

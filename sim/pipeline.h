@@ -1,0 +1,52 @@
+// The SystemC pipeline: setup_engine, span_walker, pixel_datapath and framebuffer, joined by bounded
+// queues with back-pressure, over one frame.
+//
+//   by_span   modules run ahead of the kernel and keep time in timestamped queues
+//   by_clock  every module acts in every clock
+//
+// Both give the same cycle for every pixel. Cycle 0 is the first cycle of the first triangle's setup.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/fixed/framebuffer.h"
+#include "sim/clocked_datapath.h"
+#include "sim/pipeline_configuration.h"
+
+namespace phongpipe {
+
+enum class Detail { span, cycle };
+
+struct SimulationOptions {
+  Detail detail = Detail::span;
+  // Behind the ports of pixel_datapath; null for the SystemC module's own values.
+  ClockedDatapath* datapath = nullptr;
+  // Random back-pressure: the framebuffer takes 1 to 8 cycles more for this share of pixels.
+  int stall_percent = 0;
+  std::uint32_t stall_seed = 1;
+  // A pipeline in which nothing has moved for so many cycles is stuck.
+  std::int64_t watchdog_cycles = 1'000'000;
+};
+
+struct SimulationResult {
+  std::vector<ShadedPixel> stream;           // as it leaves pixel_datapath
+  std::vector<std::uint32_t> pixel_cycles;   // the cycle each leaves in
+  std::vector<std::uint32_t> frame_colors;   // the framebuffer at the end
+  std::int64_t frame_cycles = 0;             // until the framebuffer has taken the last pixel
+  std::int64_t datapath_cycles = 0;          // until pixel_datapath has delivered it
+  std::int64_t setup_cycles = 0;             // of one triangle
+  std::int64_t rom_load_cycles = 0;
+  // In which a ClockedDatapath held a pixel or was offered a span; 0 for the closed form by the span.
+  std::int64_t datapath_busy_cycles = 0;
+  std::string failure;  // why the pipeline got stuck, with every module's queue; empty if it did not
+};
+
+// Simulates one frame. SystemC elaborates once a process: a second call throws std::logic_error.
+SimulationResult simulate(const FrameSetup& frame, const Geometry& geometry,
+                          const PipelineConfiguration& configuration,
+                          const SimulationOptions& options);
+
+}  // namespace phongpipe

@@ -1,0 +1,37 @@
+// What the pipeline is built of, as far as time goes: units, queues and the cycles of each block.
+#pragma once
+
+namespace phongpipe {
+
+// `count` identical pipelined units; a result is there `latency` cycles after its operands, and a
+// unit takes new operands every `interval` cycles.
+struct Units {
+  int count = 1;
+  int latency = 1;
+  int interval = 1;
+};
+
+struct PipelineConfiguration {
+  // setup_engine: one triangle at a time, on these.
+  Units adders = {2, 2, 1};
+  Units multipliers = {2, 3, 1};
+  Units rsqrt = {1, 10, 2};
+
+  int walker_triangle_cycles = 2;  // from taking a triangle to its first span
+  int walker_row_cycles = 1;       // from one span to the next
+
+  int framebuffer_write_cycles = 1;  // a pixel that passes the depth test
+  int framebuffer_test_cycles = 1;   // one that fails it
+
+  // Depths of the queues before span_walker, pixel_datapath and framebuffer.
+  int triangle_fifo = 4;
+  int span_fifo = 8;
+  int pixel_fifo = 16;
+
+  int depth_bits = 24;
+
+  // Throws InputError naming key, value and legal range.
+  void check() const;
+};
+
+}  // namespace phongpipe

@@ -1,0 +1,100 @@
+#include "sim/schedule.h"
+
+#include <algorithm>
+#include <array>
+#include <queue>
+#include <vector>
+
+namespace phongpipe {
+namespace {
+
+const Units& units_for(Operation operation, const PipelineConfiguration& units) {
+  switch (operation) {
+    case Operation::add: return units.adders;
+    case Operation::multiply: return units.multipliers;
+    case Operation::rsqrt: break;
+  }
+  return units.rsqrt;
+}
+
+// For each node, cycles from its start to the end of the longest chain that hangs on it.
+std::vector<int> remaining_path(const Dataflow& dataflow, const PipelineConfiguration& units) {
+  std::vector<int> path(dataflow.nodes.size(), 0);
+  for (std::size_t i = dataflow.nodes.size(); i-- > 0;) {
+    const Dataflow::Node& node = dataflow.nodes[i];
+    path[i] += units_for(node.operation, units).latency;
+    for (const int operand : {node.left, node.right}) {
+      if (operand == Dataflow::kInput) continue;
+      int& before = path[static_cast<std::size_t>(operand)];
+      before = std::max(before, path[i]);
+    }
+  }
+  return path;
+}
+
+}  // namespace
+
+Dataflow record_setup(const SeriesPlan& plan) {
+  Recording recording;
+  setup_triangle(plan, TriangleInput<Recorded>{}, LightInput<Recorded>{});
+  return recording.dataflow();
+}
+
+int schedule_cycles(const Dataflow& dataflow, const PipelineConfiguration& units) {
+  constexpr std::size_t kKinds = 3;
+  const std::size_t count = dataflow.nodes.size();
+  const std::vector<int> path = remaining_path(dataflow, units);
+  std::vector<std::vector<std::size_t>> users(count);
+  std::vector<int> waiting_for(count, 0), operands_at(count, 0);
+  using Ready = std::pair<int, std::size_t>;  // remaining path, node
+  std::array<std::priority_queue<Ready>, kKinds> ready;
+  std::vector<std::vector<std::size_t>> arriving;  // by cycle
+  const auto arrive = [&arriving](int cycle, std::size_t node) {
+    const auto at = static_cast<std::size_t>(cycle);
+    if (arriving.size() <= at) arriving.resize(at + 1);
+    arriving[at].push_back(node);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const int operand : {dataflow.nodes[i].left, dataflow.nodes[i].right}) {
+      if (operand == Dataflow::kInput) continue;
+      users[static_cast<std::size_t>(operand)].push_back(i);
+      ++waiting_for[i];
+    }
+    if (waiting_for[i] == 0) arrive(0, i);
+  }
+
+  std::array<std::vector<int>, kKinds> unit_free;
+  for (const Operation operation : {Operation::add, Operation::multiply, Operation::rsqrt}) {
+    const auto units_of_kind = static_cast<std::size_t>(units_for(operation, units).count);
+    unit_free[static_cast<std::size_t>(operation)].assign(units_of_kind, 0);
+  }
+  int end = 0;
+  std::size_t started = 0;
+  for (int cycle = 0; started < count; ++cycle) {
+    const auto now = static_cast<std::size_t>(cycle);
+    if (now < arriving.size()) {
+      for (const std::size_t node : arriving[now]) {
+        ready[static_cast<std::size_t>(dataflow.nodes[node].operation)].push({path[node], node});
+      }
+    }
+    for (std::size_t kind = 0; kind < kKinds; ++kind) {
+      const Units& unit = units_for(static_cast<Operation>(kind), units);
+      for (int& free_at : unit_free[kind]) {
+        if (free_at > cycle || ready[kind].empty()) continue;
+        const std::size_t node = ready[kind].top().second;
+        ready[kind].pop();
+        ++started;
+        free_at = cycle + unit.interval;
+        const int done = cycle + unit.latency;
+        end = std::max(end, done);
+        for (const std::size_t user : users[node]) {
+          operands_at[user] = std::max(operands_at[user], done);
+          if (--waiting_for[user] == 0) arrive(operands_at[user], user);
+        }
+      }
+    }
+  }
+  return end;
+}
+
+}  // namespace phongpipe

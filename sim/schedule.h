@@ -1,0 +1,17 @@
+// The setup engine's time: a recorded dataflow on a given number of units.
+#pragma once
+
+#include "model/shading/dataflow.h"
+#include "model/shading/triangle_setup.h"
+#include "sim/pipeline_configuration.h"
+
+namespace phongpipe {
+
+// The operations of setup_triangle for a plan, recorded from the very template that computes them.
+Dataflow record_setup(const SeriesPlan& plan);
+
+// Cycles from the first operand to the last result under list scheduling: each cycle, of the
+// operations whose operands are there, those on the longest remaining path are started first.
+int schedule_cycles(const Dataflow& dataflow, const PipelineConfiguration& units);
+
+}  // namespace phongpipe

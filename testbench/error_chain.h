@@ -1,0 +1,28 @@
+// The links between exact Phong and the output, pixel by pixel: exact Phong → real polynomial →
+// rounded coefficients → ROM → 8-bit output.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "model/fixed/front_end.h"
+#include "model/fixed/model_frame.h"
+
+namespace phongpipe {
+
+// The colours of one visible pixel along the chain, in LSB; the channels in use only.
+struct ErrorChain {
+  std::size_t index = 0;  // of the pixel in the image
+  Color exact;            // Phong shading, normals normalised at the pixel
+  Color polynomial;       // the series in real arithmetic, exact powers
+  Color rounded;          // the datapath's series, exact powers
+  Color table;            // the datapath's series and ROM words
+  Color output;           // the datapath's output
+};
+
+// For every visible pixel of the model's frame, in the order of the stream.
+void for_each_visible_pixel(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
+                            const ModelFrame& model,
+                            const std::function<void(const ErrorChain&)>& visit);
+
+}  // namespace phongpipe

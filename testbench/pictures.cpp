@@ -1,0 +1,118 @@
+#include "testbench/pictures.h"
+
+#include <fmt/format.h>
+#include <stb_image_write.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+
+#include "model/scene/input_error.h"
+
+namespace phongpipe {
+namespace {
+
+void append(void* context, void* data, int size) {
+  static_cast<std::string*>(context)->append(static_cast<const char*>(data),
+                                             static_cast<std::size_t>(size));
+}
+
+std::size_t pixels(int width, int height) {
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
+}  // namespace
+
+Picture picture_of(const std::vector<std::uint32_t>& colors, int width, int height, int channels) {
+  Picture picture{width, height, channels, {}};
+  picture.bytes.reserve(colors.size() * static_cast<std::size_t>(channels));
+  for (const std::uint32_t color : colors) {
+    for (int c = 0; c < channels; ++c) {
+      picture.bytes.push_back(static_cast<std::uint8_t>(color >> (8 * c)));
+    }
+  }
+  return picture;
+}
+
+std::vector<Color> in_lsb(const std::vector<std::uint32_t>& colors, int channels) {
+  std::vector<Color> result;
+  result.reserve(colors.size());
+  for (const std::uint32_t color : colors) {
+    const auto channel = [&](int c) { return static_cast<double>(color >> (8 * c) & 0xff); };
+    result.push_back(channels == 1 ? Color(Color::Constant(channel(0)))
+                                   : Color(channel(0), channel(1), channel(2)));
+  }
+  return result;
+}
+
+Picture picture_of(const std::vector<Color>& colors, int width, int height, int channels) {
+  Picture picture{width, height, channels, {}};
+  picture.bytes.reserve(colors.size() * static_cast<std::size_t>(channels));
+  for (const Color& color : colors) {
+    for (int c = 0; c < channels; ++c) {
+      picture.bytes.push_back(static_cast<std::uint8_t>(color[c] + 0.5));
+    }
+  }
+  return picture;
+}
+
+Picture error_map(const std::vector<float>& errors, int width, int height) {
+  using Rgb = std::array<double, 3>;
+  constexpr std::array<Rgb, 5> kStops = {
+      Rgb{0, 0, 0}, Rgb{40, 40, 160}, Rgb{190, 40, 80}, Rgb{250, 180, 40}, Rgb{255, 255, 255}};
+  constexpr std::array<std::uint8_t, 3> kUncovered = {12, 40, 24};
+  Picture picture{width, height, 3, {}};
+  picture.bytes.reserve(errors.size() * 3);
+  for (const float error : errors) {
+    if (std::isnan(error)) {
+      picture.bytes.insert(picture.bytes.end(), kUncovered.begin(), kUncovered.end());
+      continue;
+    }
+    const double at = std::min(error / kErrorMapTop, 1.0) * (kStops.size() - 1);
+    const auto stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+    const double weight = at - static_cast<double>(stop);
+    for (std::size_t c = 0; c < 3; ++c) {
+      picture.bytes.push_back(static_cast<std::uint8_t>(
+          std::lround(kStops[stop][c] * (1 - weight) + kStops[stop + 1][c] * weight)));
+    }
+  }
+  return picture;
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::filesystem::path partial = file;
+  partial += ".partial";
+  std::ofstream out(partial, std::ios::binary);
+  out << text << std::flush;
+  std::error_code error;
+  if (out) std::filesystem::rename(partial, file, error);
+  if (!out || error) {
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    throw InputError(fmt::format("{}: cannot be written", file.string()));
+  }
+}
+
+void write_png(const std::filesystem::path& file, const Picture& picture) {
+  std::string bytes;
+  stbi_write_png_to_func(append, &bytes, picture.width, picture.height, picture.channels,
+                         picture.bytes.data(), picture.width * picture.channels);
+  write_text(file, bytes);
+}
+
+void write_pfm(const std::filesystem::path& file, const std::vector<Color>& colors, int width,
+               int height) {
+  std::string bytes = fmt::format("PF\n{} {}\n-1.0\n", width, height);
+  bytes.reserve(bytes.size() + pixels(width, height) * 3 * sizeof(float));
+  for (int y = height; y-- > 0;) {
+    const Color* row = colors.data() + pixels(width, y);
+    for (int x = 0; x < width; ++x) {
+      const Eigen::Array3f rgb = row[x].cast<float>();
+      bytes.append(reinterpret_cast<const char*>(rgb.data()), 3 * sizeof(float));
+    }
+  }
+  write_text(file, bytes);
+}
+
+}  // namespace phongpipe

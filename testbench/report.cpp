@@ -1,0 +1,198 @@
+#include "testbench/report.h"
+
+#include <fmt/color.h>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "sim/schedule.h"
+
+namespace phongpipe {
+namespace {
+
+class Page {
+ public:
+  explicit Page(bool color) : color_(color) {}
+
+  template <typename... Args>
+  void line(const char* label, fmt::format_string<Args...> format, Args&&... args) {
+    text_ += fmt::format("  {:<14} {}\n", label, fmt::format(format, std::forward<Args>(args)...));
+  }
+  void plain(const std::string& text) { text_ += text + "\n"; }
+  std::string verdict(bool good, const std::string& text) const {
+    if (!color_) return text;
+    const auto style = fmt::emphasis::bold | fmt::fg(good ? fmt::terminal_color::green
+                                                          : fmt::terminal_color::red);
+    return fmt::format(style, "{}", text);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  bool color_;
+  std::string text_;
+};
+
+std::string color_text(std::uint32_t color, int channels) {
+  std::string hex, lsb;
+  for (int c = 0; c < channels; ++c) {
+    const std::uint32_t value = (color >> (8 * c)) & 0xff;
+    hex += fmt::format("{:02x}", value);
+    lsb += fmt::format("{}{}", c > 0 ? "," : "", value);
+  }
+  return fmt::format("0x{} ({} LSB)", hex, lsb);
+}
+
+void report_account(Page& page, const char* name, const Account& account, const Verification& v) {
+  const bool good =
+      account.mismatches == 0 && account.frame_mismatches == 0 && account.failure.empty();
+  page.line(name, "{}",
+            page.verdict(good, fmt::format("{} mismatches in {} pixels, {} in the final frame",
+                                           account.mismatches, v.pixels,
+                                           account.frame_mismatches)));
+  if (!account.failure.empty()) page.line("", "{}", page.verdict(false, account.failure));
+  if (!account.first) return;
+  const Divergence& d = *account.first;
+  const int channels = v.hardware.datapath.channels;
+  page.line("", "first divergence: pixel {} of the stream, triangle {}, x {}, y {}, cycle {}, seed {}",
+            d.place, d.triangle, d.model.x, d.model.y, d.cycle, v.options.seed);
+  page.line("", "model:   {}", color_text(d.model.color, channels));
+  page.line("", "{:<8} {}", fmt::format("{}:", name),
+            d.missing ? std::string("the stream ended before it")
+                      : fmt::format("{} at x {}, y {}", color_text(d.other.color, channels),
+                                    d.other.x, d.other.y));
+}
+
+void report_hardware(Page& page, const Verification& v) {
+  Hardware hardware = v.hardware;
+  hardware.choose_channels = false;
+  const DatapathConfiguration& d = hardware.datapath;
+  std::string_view section;
+  std::string text;
+  for (const Setting& setting : settings(hardware)) {
+    if (setting.section != section && !text.empty()) {
+      page.line(std::string(section).c_str(), "{}", text);
+      text.clear();
+    }
+    section = setting.section;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", setting.key, setting.value());
+  }
+  page.line(std::string(section).c_str(), "{}", text);
+  page.line("formats", "diffuse s{}.{}, specular s{}.{}; {} series, {} adders, ROM {} × {} bits{}",
+            d.diffuse_width() - 1 - d.diffuse_fraction_bits, d.diffuse_fraction_bits,
+            d.specular_width() - 1 - d.specular_fraction_bits, d.specular_fraction_bits, d.series(),
+            d.adders(), d.rom_words(), d.channels * d.rom_data_bits,
+            d.gate == GateSource::series ? "; 2 adders of them only for the sign of N·L" : "");
+  const OperationCounts counts = record_setup(v.plan).counts();
+  page.line("setup", "{} cycles a triangle for {} additions, {} multiplications, {} 1/√",
+            v.systemc.setup_cycles, counts.add, counts.multiply, counts.rsqrt);
+}
+
+void report_accuracy(Page& page, const Accuracy& accuracy) {
+  const ErrorStatistics& e = accuracy.total;
+  page.line("accuracy", "largest error {:.2f} LSB, RMS {:.3f} LSB, PSNR {:.1f} dB", e.largest,
+            e.rms(), e.psnr_db());
+  page.line("", "off by more than ½ LSB {:.2f} %, 1 LSB {:.2f} %, 2 LSB {:.2f} %",
+            100 * e.share(e.over_half), 100 * e.share(e.over_one), 100 * e.share(e.over_two));
+  const auto part = [](const ErrorStatistics& s) {
+    return fmt::format("{:.2f} ({:.3f})", s.largest, s.rms());
+  };
+  page.line("of which", "series {}, rounding {}, ROM {}, output {}: largest (RMS) LSB",
+            part(accuracy.series), part(accuracy.rounding), part(accuracy.rom),
+            part(accuracy.output));
+}
+
+nlohmann::ordered_json statistics_json(const ErrorStatistics& s) {
+  return {{"max_lsb", s.largest}, {"rms_lsb", s.rms()}};
+}
+
+}  // namespace
+
+std::string report_text(const Verification& v, bool color) {
+  Page page(color);
+  page.plain(fmt::format("{}: {} triangles ({} cover a pixel), {} pixels shaded, {} visible",
+                         v.scene.string(), v.triangles, v.triangles_set_up, v.pixels,
+                         v.visible_pixels));
+  for (const std::string& note : v.notes) page.line("note", "{}", note);
+  page.line("hardware", "{}, configuration {}", v.hardware.name, configuration_hash(v.hardware));
+  report_hardware(page, v);
+  report_account(page, "systemc", v.systemc, v);
+  report_account(page, "rtl", v.rtl, v);
+  const std::int64_t difference = v.cycle_difference();
+  page.line("cycles", "{} for the frame; with the RTL in it {}, difference {}{}",
+            v.systemc.frame_cycles, v.rtl.frame_cycles,
+            page.verdict(v.same_cycles(), fmt::format("{}", difference)),
+            v.same_cycles() || difference != 0 ? "" : ", but pixels leave at other cycles");
+  page.line("clock", "{:.2f} ns ({}: {})", v.hardware.clock_ns(), v.hardware.technology.name,
+            v.hardware.technology.source);
+  page.line("time", "datapath {:.2f} ns a pixel, whole frame {:.2f} ns a pixel, {}",
+            v.datapath_ns(), v.frame_ns(),
+            page.verdict(v.within_budget(),
+                         fmt::format("{:.2f} ns {} the budget of {:g} ns",
+                                     std::fabs(v.options.budget_ns - v.frame_ns()),
+                                     v.within_budget() ? "under" : "OVER", v.options.budget_ns)));
+  report_accuracy(page, v.accuracy);
+  if (v.rom_error > 0.01) {
+    page.line("warning", "the ROM errs by up to {:.2f} % of a full highlight; raise "
+              "rom_address_bits, or lower the shininess", 100 * v.rom_error);
+  }
+  if (v.coefficient_overflows > 0) {
+    page.line("overflow", "{}",
+              page.verdict(false, fmt::format("{} triangles have values that do not fit their "
+                                              "registers: their pixels may be wrong",
+                                              v.coefficient_overflows)));
+  }
+  page.plain(page.verdict(v.passed(), v.passed() ? "PASSED" : "FAILED") + " " + v.scene.string());
+  return page.text();
+}
+
+nlohmann::ordered_json report_json(const Verification& v) {
+  Hardware hardware = v.hardware;
+  hardware.choose_channels = false;
+  nlohmann::ordered_json configuration = {{"hardware", hardware.name},
+                                          {"technology", hardware.technology.name}};
+  for (const Setting& setting : settings(hardware)) {
+    auto& value = configuration[std::string(setting.section)][std::string(setting.key)];
+    if (setting.choices.empty()) {
+      value = setting.get();
+    } else {
+      value = setting.value();
+    }
+  }
+  configuration["datapath"]["channels"] = hardware.datapath.channels;
+  const Accuracy& a = v.accuracy;
+  const double psnr = a.total.psnr_db();
+  return {
+      {"scene", v.scene.string()},
+      {"configuration", configuration},
+      {"configuration_hash", configuration_hash(v.hardware)},
+      {"triangles", v.triangles},
+      {"pixels", v.pixels},
+      {"mismatches", {{"model_rtl", v.rtl.mismatches + v.rtl.frame_mismatches},
+                      {"model_systemc", v.systemc.mismatches + v.systemc.frame_mismatches}}},
+      {"cycles", {{"frame", v.systemc.frame_cycles},
+                  {"datapath_rtl", v.rtl.datapath_cycles},
+                  {"datapath_systemc", v.systemc.datapath_cycles},
+                  {"difference", v.cycle_difference()},
+                  {"setup_per_triangle", v.systemc.setup_cycles},
+                  {"rom_load", v.systemc.rom_load_cycles}}},
+      {"clock_ns", v.hardware.clock_ns()},
+      {"clock_source", v.hardware.technology.source},
+      {"ns_per_pixel", {{"datapath", v.datapath_ns()}, {"frame", v.frame_ns()}}},
+      {"budget_ns", v.options.budget_ns},
+      {"within_budget", v.within_budget()},
+      {"accuracy", {{"max_lsb", a.total.largest},
+                    {"rms_lsb", a.total.rms()},
+                    {"psnr_db", std::isfinite(psnr) ? nlohmann::ordered_json(psnr) : nullptr},
+                    {"over_half", a.total.share(a.total.over_half)},
+                    {"over_one", a.total.share(a.total.over_one)},
+                    {"over_two", a.total.share(a.total.over_two)}}},
+      {"accuracy_split", {{"series", statistics_json(a.series)},
+                          {"rounding", statistics_json(a.rounding)},
+                          {"rom", statistics_json(a.rom)},
+                          {"output", statistics_json(a.output)}}},
+      {"coefficient_overflows", v.coefficient_overflows},
+      {"seed", v.options.seed},
+      {"passed", v.passed()}};
+}
+
+}  // namespace phongpipe

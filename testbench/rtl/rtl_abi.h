@@ -1,0 +1,48 @@
+// What a Verilated pixel_datapath, built as a shared library, offers to the program that loads it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+extern "C" {
+
+struct RtlSeries {
+  std::int64_t v, d1, d2;
+};
+
+struct RtlSpan {
+  std::int32_t x, y, length;
+  RtlSeries diffuse[3];
+  RtlSeries specular;
+  RtlSeries gate;
+  std::int64_t level[3];
+};
+
+// The ports, for one clock. Outputs are as they stand before its edge.
+struct RtlPorts {
+  const RtlSpan* span;  // span_valid where not null; must not change until span_ready
+  std::uint8_t reset, pixel_ready, rom_write;
+  std::uint16_t rom_address;
+  std::uint16_t rom_data[3];
+
+  std::uint8_t span_ready, pixel_valid;
+  std::uint16_t pixel_x, pixel_y;
+  std::uint32_t pixel_color;
+};
+
+struct RtlPixel {
+  std::uint16_t x, y;
+  std::uint32_t color;
+};
+
+struct RtlInterface {
+  void* (*create)();
+  void (*destroy)(void* rtl);
+  void (*clock)(void* rtl, RtlPorts* ports);
+  // Spans back to back with the output always ready; returns the clocks until the last pixel has
+  // left. `pixels` has room for all of them.
+  std::uint64_t (*run)(void* rtl, const RtlSpan* spans, std::size_t count, RtlPixel* pixels);
+};
+
+const RtlInterface* phongpipe_rtl_interface();
+}

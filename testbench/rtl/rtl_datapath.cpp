@@ -1,0 +1,67 @@
+#include "testbench/rtl/rtl_library.h"
+
+namespace phongpipe {
+namespace {
+
+RtlSeries to_rtl(const SeriesStart& start) { return {start.v, start.d1, start.d2}; }
+
+}  // namespace
+
+RtlSpan to_rtl(const Span& span, const MaterialSetup& material) {
+  RtlSpan rtl = {};
+  rtl.x = span.row.x;
+  rtl.y = span.row.y;
+  rtl.length = span.row.length;
+  for (std::size_t c = 0; c < 3; ++c) {
+    rtl.diffuse[c] = to_rtl(span.diffuse[c]);
+    rtl.level[c] = material.level[c];
+  }
+  rtl.specular = to_rtl(span.specular);
+  rtl.gate = to_rtl(span.gate);
+  return rtl;
+}
+
+RtlDatapath::RtlDatapath(const RtlLibrary& library)
+    : interface_(&library.interface()), rtl_(interface_->create()) {}
+
+RtlDatapath::~RtlDatapath() { interface_->destroy(rtl_); }
+
+void RtlDatapath::reset() {
+  ports_ = {};
+  ports_.reset = 1;
+  interface_->clock(rtl_, &ports_);
+  ports_.reset = 0;
+  presenting_ = false;
+}
+
+DatapathOutputs RtlDatapath::clock(const DatapathInputs& inputs) {
+  if (inputs.span != nullptr && !presenting_) presented_ = to_rtl(*inputs.span, *inputs.material);
+  presenting_ = inputs.span != nullptr;
+  ports_.span = presenting_ ? &presented_ : nullptr;
+  ports_.pixel_ready = inputs.pixel_ready;
+  ports_.rom_write = inputs.rom_write;
+  if (inputs.rom_write) {
+    ports_.rom_address = static_cast<std::uint16_t>(inputs.rom_address);
+    for (std::size_t c = 0; c < inputs.material->roms.size(); ++c) {
+      const auto address = static_cast<std::size_t>(inputs.rom_address);
+      ports_.rom_data[c] = static_cast<std::uint16_t>(inputs.material->roms[c].words()[address]);
+    }
+  }
+  interface_->clock(rtl_, &ports_);
+  if (ports_.span_ready) presenting_ = false;
+  DatapathOutputs outputs;
+  outputs.span_ready = ports_.span_ready != 0;
+  outputs.pixel_valid = ports_.pixel_valid != 0;
+  outputs.pixel = {ports_.pixel_x, ports_.pixel_y, ports_.pixel_color};
+  return outputs;
+}
+
+void RtlDatapath::load_material(const MaterialSetup& material) {
+  DatapathInputs inputs;
+  inputs.rom_write = true;
+  inputs.material = &material;
+  const auto words = static_cast<int>(material.roms.front().words().size());
+  for (inputs.rom_address = 0; inputs.rom_address < words; ++inputs.rom_address) clock(inputs);
+}
+
+}  // namespace phongpipe

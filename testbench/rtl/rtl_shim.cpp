@@ -1,0 +1,148 @@
+// Compiled together with the Verilated pixel_datapath of one configuration: RtlInterface over it.
+#include "rtl_abi.h"
+
+#include <verilated.h>
+
+#include <type_traits>
+
+#include "Vpixel_datapath.h"
+
+namespace {
+
+#ifndef PHONGPIPE_CHANNELS
+#error "PHONGPIPE_CHANNELS, _DIFFUSE_WIDTH, _SPECULAR_WIDTH and _ROM_DATA_BITS must be defined"
+#endif
+constexpr int kChannels = PHONGPIPE_CHANNELS;
+constexpr int kDiffuseWidth = PHONGPIPE_DIFFUSE_WIDTH;
+constexpr int kSpecularWidth = PHONGPIPE_SPECULAR_WIDTH;
+constexpr int kRomDataBits = PHONGPIPE_ROM_DATA_BITS;
+
+// The low `width` bits of each value side by side, the first in the low bits, into a port of whatever
+// type Verilator chose for it.
+template <typename Port, typename Value>
+void pack(Port& port, const Value* values, int count, int width) {
+  const std::uint64_t mask = ~std::uint64_t{0} >> (64 - width);
+  if constexpr (std::is_integral_v<Port>) {
+    std::uint64_t packed = 0;
+    for (int i = 0; i < count; ++i) {
+      packed |= (static_cast<std::uint64_t>(values[i]) & mask) << (i * width);
+    }
+    port = static_cast<Port>(packed);
+  } else {  // words of 32 bits
+    for (int word = 0; word < static_cast<int>(sizeof(port) / sizeof(EData)); ++word) port[word] = 0;
+    for (int i = 0; i < count; ++i) {
+      std::uint64_t value = static_cast<std::uint64_t>(values[i]) & mask;
+      for (int bit = i * width; value != 0;) {
+        port[bit / 32] |= static_cast<EData>(value << (bit % 32));
+        const int stored = 32 - bit % 32;
+        value >>= stored;
+        bit += stored;
+      }
+    }
+  }
+}
+
+class Rtl {
+ public:
+  Rtl() : top_(&context_) {
+    top_.clk = 0;
+    top_.reset = 1;
+    top_.span_valid = 0;
+    top_.rom_write = 0;
+    top_.pixel_ready = 0;
+    edge();
+    top_.reset = 0;
+  }
+  ~Rtl() { top_.final(); }
+
+  void clock(RtlPorts& ports) {
+    top_.reset = ports.reset;
+    top_.pixel_ready = ports.pixel_ready;
+    top_.rom_write = ports.rom_write;
+    if (ports.rom_write) {
+      top_.rom_address = static_cast<decltype(+top_.rom_address)>(ports.rom_address);
+      pack(top_.rom_data, ports.rom_data, kChannels, kRomDataBits);
+    }
+    top_.span_valid = ports.span != nullptr;
+    if (ports.span != presented_) present(ports.span);
+    top_.clk = 0;
+    top_.eval();
+    ports.span_ready = top_.span_ready;
+    ports.pixel_valid = top_.pixel_valid;
+    if (top_.pixel_valid) {
+      ports.pixel_x = top_.pixel_x;
+      ports.pixel_y = top_.pixel_y;
+      ports.pixel_color = top_.pixel_color;
+    }
+    if (top_.span_ready) presented_ = nullptr;  // the next span may stand at the same address
+    edge();
+  }
+
+  std::uint64_t run(const RtlSpan* spans, std::size_t count, RtlPixel* pixels) {
+    std::uint64_t left = 0;
+    for (std::size_t i = 0; i < count; ++i) left += static_cast<std::uint64_t>(spans[i].length);
+    const RtlSpan* const end = spans + count;
+    RtlPorts ports = {};
+    ports.pixel_ready = 1;
+    std::uint64_t clocks = 0;
+    // A datapath that loses pixels must not keep us forever.
+    for (const std::uint64_t limit = 2 * left + count + 64; left > 0 && clocks < limit; ++clocks) {
+      ports.span = spans != end ? spans : nullptr;
+      clock(ports);
+      if (ports.span != nullptr && ports.span_ready) ++spans;
+      if (ports.pixel_valid) {
+        *pixels++ = {ports.pixel_x, ports.pixel_y, ports.pixel_color};
+        --left;
+      }
+    }
+    return clocks;
+  }
+
+ private:
+  void edge() {
+    top_.clk = 1;
+    top_.eval();
+  }
+
+  void present(const RtlSpan* span) {
+    presented_ = span;
+    if (span == nullptr) return;
+    top_.span_x = static_cast<SData>(span->x);
+    top_.span_y = static_cast<SData>(span->y);
+    top_.span_length = static_cast<SData>(span->length);
+    std::int64_t v[3], d1[3], d2[3];
+    for (int c = 0; c < kChannels; ++c) {
+      v[c] = span->diffuse[c].v;
+      d1[c] = span->diffuse[c].d1;
+      d2[c] = span->diffuse[c].d2;
+    }
+    pack(top_.span_diffuse_v, v, kChannels, kDiffuseWidth);
+    pack(top_.span_diffuse_d1, d1, kChannels, kDiffuseWidth);
+    pack(top_.span_diffuse_d2, d2, kChannels, kDiffuseWidth);
+    pack(top_.span_level, span->level, kChannels, kDiffuseWidth);
+    pack(top_.span_specular_v, &span->specular.v, 1, kSpecularWidth);
+    pack(top_.span_specular_d1, &span->specular.d1, 1, kSpecularWidth);
+    pack(top_.span_specular_d2, &span->specular.d2, 1, kSpecularWidth);
+    pack(top_.span_gate_v, &span->gate.v, 1, kDiffuseWidth);
+    pack(top_.span_gate_d1, &span->gate.d1, 1, kDiffuseWidth);
+    pack(top_.span_gate_d2, &span->gate.d2, 1, kDiffuseWidth);
+  }
+
+  VerilatedContext context_;
+  Vpixel_datapath top_;
+  const RtlSpan* presented_ = nullptr;
+};
+
+const RtlInterface kInterface = {
+    []() -> void* { return new Rtl; },
+    [](void* rtl) { delete static_cast<Rtl*>(rtl); },
+    [](void* rtl, RtlPorts* ports) { static_cast<Rtl*>(rtl)->clock(*ports); },
+    [](void* rtl, const RtlSpan* spans, std::size_t count, RtlPixel* pixels) {
+      return static_cast<Rtl*>(rtl)->run(spans, count, pixels);
+    }};
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) const RtlInterface* phongpipe_rtl_interface() {
+  return &kInterface;
+}

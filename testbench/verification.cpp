@@ -1,0 +1,213 @@
+#include "testbench/verification.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "model/scene/input_error.h"
+#include "testbench/pictures.h"
+#include "testbench/process.h"
+#include "testbench/rtl/rtl_library.h"
+
+namespace phongpipe {
+namespace {
+
+using nlohmann::json;
+
+std::uint32_t triangle_at(const ModelFrame& model, std::uint64_t place) {
+  std::uint64_t end = 0;
+  for (const TracedSpan& span : model.spans) {
+    end += static_cast<std::uint64_t>(span.row.length);
+    if (place < end) return span.triangle;
+  }
+  return model.spans.empty() ? 0 : model.spans.back().triangle;
+}
+
+Account compare(const ModelFrame& model, const SimulationResult& result) {
+  Account account;
+  account.frame_cycles = result.frame_cycles;
+  account.datapath_cycles = result.datapath_cycles;
+  account.setup_cycles = result.setup_cycles;
+  account.rom_load_cycles = result.rom_load_cycles;
+  account.datapath_busy_cycles = result.datapath_busy_cycles;
+  account.failure = result.failure;
+
+  const std::size_t common = std::min(model.stream.size(), result.stream.size());
+  const std::size_t longer = std::max(model.stream.size(), result.stream.size());
+  account.mismatches = longer - common;
+  std::size_t first = common;
+  account.cycles_hash = 14695981039346656037U;  // FNV-1a over words
+  for (std::size_t i = 0; i < common; ++i) {
+    account.cycles_hash = (account.cycles_hash ^ result.pixel_cycles[i]) * 1099511628211U;
+    if (model.stream[i] == result.stream[i]) continue;
+    first = std::min(first, i);
+    ++account.mismatches;
+  }
+  if (account.mismatches > 0) {
+    Divergence divergence;
+    divergence.place = first;
+    divergence.triangle = triangle_at(model, first);
+    divergence.missing = first >= result.stream.size();
+    if (first < model.stream.size()) divergence.model = model.stream[first];
+    if (!divergence.missing) {
+      divergence.other = result.stream[first];
+      divergence.cycle = result.pixel_cycles[first];
+    }
+    account.first = divergence;
+  }
+  const std::vector<std::uint32_t>& colors = model.framebuffer.colors();
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (result.frame_colors.size() != colors.size() || colors[i] != result.frame_colors[i]) {
+      ++account.frame_mismatches;
+    }
+  }
+  return account;
+}
+
+std::uint64_t pack(const ShadedPixel& pixel) {
+  return std::uint64_t{pixel.color} << 32 | std::uint64_t{pixel.y} << 16 | pixel.x;
+}
+ShadedPixel unpack(std::uint64_t packed) {
+  return {static_cast<std::uint16_t>(packed), static_cast<std::uint16_t>(packed >> 16),
+          static_cast<std::uint32_t>(packed >> 32)};
+}
+
+// Accounts travel from the child that simulates to the parent as text.
+std::string to_text(const Account& a) {
+  json j = {{"mismatches", a.mismatches},     {"frame_mismatches", a.frame_mismatches},
+            {"frame_cycles", a.frame_cycles}, {"datapath_cycles", a.datapath_cycles},
+            {"setup_cycles", a.setup_cycles}, {"rom_load_cycles", a.rom_load_cycles},
+            {"busy", a.datapath_busy_cycles}, {"cycles_hash", a.cycles_hash},
+            {"failure", a.failure}};
+  if (a.first) {
+    j["first"] = {{"place", a.first->place},       {"triangle", a.first->triangle},
+                  {"cycle", a.first->cycle},       {"model", pack(a.first->model)},
+                  {"other", pack(a.first->other)}, {"missing", a.first->missing}};
+  }
+  return j.dump();
+}
+
+Account from_text(const std::string& text) {
+  const json j = json::parse(text);
+  Account a;
+  j["mismatches"].get_to(a.mismatches);
+  j["frame_mismatches"].get_to(a.frame_mismatches);
+  j["frame_cycles"].get_to(a.frame_cycles);
+  j["datapath_cycles"].get_to(a.datapath_cycles);
+  j["setup_cycles"].get_to(a.setup_cycles);
+  j["rom_load_cycles"].get_to(a.rom_load_cycles);
+  j["busy"].get_to(a.datapath_busy_cycles);
+  j["cycles_hash"].get_to(a.cycles_hash);
+  j["failure"].get_to(a.failure);
+  if (j.contains("first")) {
+    const json& f = j["first"];
+    a.first = Divergence{f["place"],         f["triangle"],      f["cycle"],
+                         unpack(f["model"]), unpack(f["other"]), f["missing"]};
+  }
+  return a;
+}
+
+void write_pictures(const Verification& v, const ModelFrame& model, const FrameSetup& frame) {
+  const int channels = frame.configuration.channels;
+  const std::string name = v.scene.stem().string();
+  std::error_code error;
+  std::filesystem::create_directories(v.options.pictures, error);
+  const auto file = [&](const char* what) {
+    return v.options.pictures / fmt::format("{}-{}.png", name, what);
+  };
+  write_png(file("result"),
+            picture_of(model.framebuffer.colors(), frame.width, frame.height, channels));
+  write_png(file("exact"), picture_of(v.accuracy.exact, frame.width, frame.height, channels));
+  write_png(file("error"), error_map(v.accuracy.error, frame.width, frame.height));
+}
+
+}  // namespace
+
+double Verification::datapath_ns() const {
+  return pixels == 0 ? 0
+                     : hardware.clock_ns() * static_cast<double>(rtl.datapath_busy_cycles) /
+                           static_cast<double>(pixels);
+}
+
+double Verification::frame_ns() const {
+  return pixels == 0 ? 0
+                     : hardware.clock_ns() * static_cast<double>(systemc.frame_cycles) /
+                           static_cast<double>(pixels);
+}
+
+bool Verification::same_cycles() const {
+  return cycle_difference() == 0 && rtl.datapath_cycles == systemc.datapath_cycles &&
+         rtl.cycles_hash == systemc.cycles_hash;
+}
+
+bool Verification::passed() const {
+  const auto agrees = [](const Account& account) {
+    return account.mismatches == 0 && account.frame_mismatches == 0 && account.failure.empty();
+  };
+  return agrees(systemc) && agrees(rtl) && same_cycles() && within_budget() &&
+         coefficient_overflows == 0;
+}
+
+Verification verify(const std::filesystem::path& file, const Hardware& hardware,
+                    const VerificationOptions& options) {
+  const auto progress = [&options](const std::string& what) {
+    if (options.progress) options.progress(what);
+  };
+  Verification v;
+  v.scene = file;
+  v.options = options;
+  progress("reading the scene");
+  const Scene scene = load_scene(file);
+  const Geometry geometry = make_geometry(scene);
+  v.hardware = hardware;
+  suit_scene(v.hardware, scene, geometry);
+  v.notes = geometry.notes;
+  v.triangles = geometry.triangles.size();
+  const FrameSetup frame(scene, geometry, v.hardware.datapath, v.hardware.pipeline.depth_bits);
+  v.plan = frame.plan;
+  for (const Material& material : geometry.materials) {
+    v.rom_error = std::max(v.rom_error, ExponentRom::largest_error(frame.configuration,
+                                                                   material.shininess));
+  }
+  v.hardware.clock_ns();  // fails before the long work where the card has no such clock
+
+  RtlBuildOptions build;
+  build.sources = options.rtl_sources;
+  build.progress = [&](const std::string& what) { progress("building the RTL for " + what); };
+  const RtlLibrary library(frame.configuration, build);
+
+  progress("shading with the bit-accurate model");
+  const ModelFrame model = run_model(frame, geometry);
+  v.triangles_set_up = model.triangles_set_up;
+  v.coefficient_overflows = model.coefficient_overflows;
+  v.pixels = model.stream.size();
+  for (const std::uint32_t place : model.framebuffer.places()) {
+    v.visible_pixels += place != Framebuffer::kNoPixel;
+  }
+
+  progress("simulating SystemC and RTL");
+  const auto simulate_in_child = [&](bool rtl) {
+    return [&, rtl] {
+      SimulationOptions simulation;
+      simulation.detail = options.detail;
+      simulation.stall_percent = options.stall_percent;
+      simulation.stall_seed = options.seed;
+      std::unique_ptr<RtlDatapath> datapath;
+      if (rtl) {
+        datapath = std::make_unique<RtlDatapath>(library);
+        simulation.datapath = datapath.get();
+      }
+      return to_text(
+          compare(model, simulate(frame, geometry, v.hardware.pipeline, simulation)));
+    };
+  };
+  Child rtl(simulate_in_child(true));
+  Child systemc(simulate_in_child(false));
+  v.accuracy = measure_accuracy(scene, geometry, frame, model);
+  if (!options.pictures.empty()) write_pictures(v, model, frame);
+  v.systemc = from_text(systemc.get());
+  v.rtl = from_text(rtl.get());
+  return v;
+}
+
+}  // namespace phongpipe

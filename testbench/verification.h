@@ -1,0 +1,76 @@
+// One scene three ways: bit-accurate model, SystemC pipeline and Verilated RTL, pixel by pixel, with
+// accuracy against exact Phong and time against the budget.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "sim/pipeline.h"
+#include "testbench/accuracy.h"
+#include "testbench/hardware.h"
+
+namespace phongpipe {
+
+struct VerificationOptions {
+  double budget_ns = 100;
+  Detail detail = Detail::span;
+  int stall_percent = 0;
+  std::uint32_t seed = 1;
+  std::filesystem::path rtl_sources;     // empty: the installed RTL
+  std::filesystem::path pictures;        // folder; empty: none
+  std::function<void(const std::string&)> progress;  // told what is being done
+};
+
+// The first pixel at which an account leaves the model's.
+struct Divergence {
+  std::uint64_t place = 0;  // in the stream
+  std::uint32_t triangle = 0;
+  std::int64_t cycle = 0;
+  ShadedPixel model, other;
+  bool missing = false;  // the account ended before it
+};
+
+// What an account that is simulated in a process of its own is found to be.
+struct Account {
+  std::uint64_t mismatches = 0;        // pixels of the stream that are not the model's
+  std::uint64_t frame_mismatches = 0;  // pixels of the final frame
+  std::optional<Divergence> first;
+  std::int64_t frame_cycles = 0;
+  std::int64_t datapath_cycles = 0;
+  std::int64_t setup_cycles = 0;
+  std::int64_t rom_load_cycles = 0;
+  std::int64_t datapath_busy_cycles = 0;  // of the RTL
+  std::uint64_t cycles_hash = 0;  // over the cycle of every pixel
+  std::string failure;
+};
+
+struct Verification {
+  std::filesystem::path scene;
+  Hardware hardware;
+  SeriesPlan plan;
+  VerificationOptions options;
+  std::vector<std::string> notes;
+  std::size_t triangles = 0, triangles_set_up = 0;
+  std::uint64_t pixels = 0;          // shaded
+  std::uint64_t visible_pixels = 0;
+  std::size_t coefficient_overflows = 0;
+  double rom_error = 0;  // largest of the materials' tables, share of full scale
+  Account systemc, rtl;
+  Accuracy accuracy;
+
+  // Per shaded pixel: the clocks the RTL was occupied, and those of the whole frame.
+  double datapath_ns() const;
+  double frame_ns() const;
+  std::int64_t cycle_difference() const { return rtl.frame_cycles - systemc.frame_cycles; }
+  bool same_cycles() const;
+  bool within_budget() const { return frame_ns() <= options.budget_ns; }
+  bool passed() const;
+};
+
+// Throws InputError on bad input.
+Verification verify(const std::filesystem::path& scene, const Hardware& hardware,
+                    const VerificationOptions& options);
+
+}  // namespace phongpipe
