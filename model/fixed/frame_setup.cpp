@@ -37,7 +37,7 @@ MaterialSetup set_up_material(const Scene& scene, const Material& material,
                               const DatapathConfiguration& configuration) {
   const Light& light = scene.lights.front();
   const Vec3 to_light = -light.direction;
-  const Vec3 halfway = (scene.camera.eye - scene.camera.target).normalized() + to_light;
+  const Vec3 halfway = infinite_eye(scene) + to_light;
 
   MaterialSetup setup;
   setup.light.to_light = to_light;

@@ -194,6 +194,11 @@ Geometry make_geometry(const Scene& scene) {
   return GeometryBuilder(scene).build();
 }
 
+Vec3 infinite_eye(const Scene& scene) {
+  if (is_screen_space(scene)) return {0, 0, -1};
+  return (scene.camera.eye - scene.camera.target).normalized();
+}
+
 Vec3 light_vector(const Light& light, const ScreenVertex& vertex) {
   return light.type == LightType::directional ? Vec3(-light.direction)
                                               : Vec3(light.position - vertex.position);

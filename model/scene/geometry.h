@@ -56,6 +56,10 @@ std::int64_t signed_area(const ScreenTriangle& triangle);
 // Reads the meshes and projects them. Throws InputError.
 Geometry make_geometry(const Scene& scene);
 
+// Unit vector from the surface to an eye at infinity: against the camera's view, or against z in a
+// scene of screen-space triangles.
+Vec3 infinite_eye(const Scene& scene);
+
 // The vector from the surface to light i at a vertex: true length for point and spot lights, unit
 // for directional ones.
 Vec3 light_vector(const Light& light, const ScreenVertex& vertex);

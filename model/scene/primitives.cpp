@@ -143,10 +143,34 @@ ProfilePoint pawn_profile(double t) {
   return {point[0], point[1], -tangent[1] / length, tangent[0] / length};
 }
 
+// Parameters that cut the profile into pieces of equal bend and length: rings stand close where the
+// profile turns, so that no triangle spans a large angle of normals.
+std::vector<double> pawn_rings(int along) {
+  constexpr int kSamples = 4096;
+  constexpr double kBendWeight = 1;  // a radian counts as much as so many units of length
+  std::vector<double> measure = {0};
+  ProfilePoint last = pawn_profile(0);
+  for (int i = 1; i <= kSamples; ++i) {
+    const ProfilePoint next = pawn_profile(static_cast<double>(i) / kSamples);
+    const double sine = last.normal_r * next.normal_y - last.normal_y * next.normal_r;
+    const double cosine = last.normal_r * next.normal_r + last.normal_y * next.normal_y;
+    measure.push_back(measure.back() + std::hypot(next.radius - last.radius, next.y - last.y) +
+                      kBendWeight * std::abs(std::atan2(sine, cosine)));
+    last = next;
+  }
+  std::vector<double> rings;
+  for (int i = 0; i <= along; ++i) {
+    const double wanted = measure.back() * i / along;
+    const auto sample = std::lower_bound(measure.begin(), measure.end(), wanted) - measure.begin();
+    rings.push_back(static_cast<double>(sample) / kSamples);
+  }
+  return rings;
+}
+
 Mesh make_pawn(Segments segments) {
   std::vector<ProfilePoint> profile;
-  for (int i = 0; i <= segments[1]; ++i) {
-    profile.push_back(pawn_profile(static_cast<double>(i) / segments[1]));
+  for (const double t : pawn_rings(segments[1])) {
+    profile.push_back(pawn_profile(t));
   }
   return revolve(profile, segments[0], false);
 }
