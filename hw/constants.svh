@@ -1,3 +1,4 @@
+// Generated from model/fixed/constants.h by scripts/generate.sh; do not edit.
 `define PHONGPIPE_OUTPUT_BITS 8
 `define PHONGPIPE_GUARD_BITS 1
 `define PHONGPIPE_COORDINATE_BITS 12

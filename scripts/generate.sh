@@ -1,0 +1,7 @@
+#!/usr/bin/env bash
+# Writes the files that are generated from the model's sources: hw/constants.svh.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+build=${1:-build}
+cmake --build "$build" --target generate_constants >/dev/null
+"$build/bin/generate_constants" > hw/constants.svh
