@@ -26,15 +26,15 @@ const Installation& installation() {
 }
 
 fs::path find_named(const std::string& name, const fs::path& folder, const std::string& what) {
-  if (fs::is_regular_file(name)) return name;
+  if (fs::exists(name)) return name;
   const fs::path candidate = folder / (name + ".toml");
   if (fs::is_regular_file(candidate)) return candidate;
   std::vector<std::string> known;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    known.push_back(entry.path().stem().string());
+    if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
   }
   std::sort(known.begin(), known.end());
-  throw InputError(fmt::format("{}: no such file or {}; there are {}", name, what,
+  throw InputError(fmt::format("{}: no such file or {}; there are the {}s {}", name, what, what,
                                fmt::join(known, ", ")));
 }
 

@@ -19,6 +19,8 @@ void ClockedPixelDatapath::run() {
         (!visible && driver_.pixels_in_flight() == 0)) {
       last_progress = cycle;
     } else if (cycle - last_progress > context_.options.watchdog_cycles) {
+      // The modules before this one catch up, so that the queues are reported as they stand.
+      for (std::size_t i = 0; i < 2 * spans_.depth(); ++i) wait(sc_core::SC_ZERO_TIME);
       context_.result.failure = stuck(cycle);
       sc_core::sc_stop();
       return;

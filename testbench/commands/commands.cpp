@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "testbench/hardware.h"
+#include "testbench/installation.h"
 
 namespace phongpipe {
 namespace {
@@ -26,6 +27,10 @@ std::string list_settings() {
 }
 
 }  // namespace
+
+std::filesystem::path find_scene(const std::string& name) {
+  return find_named(name, installation().scenes, "scene");
+}
 
 void HardwareOptions::add_to(CLI::App& command) {
   command.add_option("--hardware", hardware, "Preset (paper-1k, paper-8k) or hardware TOML file")

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ using Run = std::function<int()>;  // the exit status: 0 all holds, 1 a check fa
 
 void add_render(CLI::App& application, Run& run);
 void add_verify(CLI::App& application, Run& run);
+
+// A scene by its file, or by the name of a shipped one. Throws InputError.
+std::filesystem::path find_scene(const std::string& name);
 
 // What several commands take.
 struct HardwareOptions {

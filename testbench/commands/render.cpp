@@ -23,7 +23,8 @@ enum class Method { phong, taylor };
 enum class Arithmetic { real, fixed };
 
 struct Options {
-  fs::path scene, output, triangles;
+  std::string scene;
+  fs::path output, triangles;
   HardwareOptions hardware;
   Method method = Method::taylor;
   std::optional<Arithmetic> arithmetic;
@@ -46,7 +47,7 @@ int render(const Options& options) {
   }
   Progress progress;
   progress("reading the scene");
-  const Scene scene = load_scene(options.scene);
+  const Scene scene = load_scene(find_scene(options.scene));
   const Geometry geometry = make_geometry(scene);
   progress("shading");
   if (!options.triangles.empty()) {
@@ -95,7 +96,7 @@ int render(const Options& options) {
 void add_render(CLI::App& application, Run& run) {
   auto options = std::make_shared<Options>();
   CLI::App* command = application.add_subcommand("render", "Render one picture by one method");
-  command->add_option("scene", options->scene, "Scene file")->required()->type_name("SCENE");
+  command->add_option("scene", options->scene, "Scene file, or name of a shipped scene")->required()->type_name("SCENE");
   command->add_option("-o,--output", options->output, "Picture: .png, or .pfm for floats in LSB")
       ->type_name("FILE");
   const std::map<std::string, Method> methods = {{"phong", Method::phong},

@@ -27,7 +27,7 @@ int verify_scenes(Options options) {
     options.verification.progress = [&](const std::string& what) {
       progress(fmt::format("{}: {}", scene, what));
     };
-    const Verification verification = verify(scene, hardware, options.verification);
+    const Verification verification = verify(find_scene(scene), hardware, options.verification);
     progress.clear();
     fmt::print("{}", report_text(verification, color_wanted()));
     std::fflush(stdout);
@@ -51,7 +51,7 @@ void add_verify(CLI::App& application, Run& run) {
   auto options = std::make_shared<Options>();
   CLI::App* command = application.add_subcommand(
       "verify", "Compute every pixel three ways, compare them, and check the time budget");
-  command->add_option("scenes", options->scenes, "Scene files")->required()->type_name("SCENE");
+  command->add_option("scenes", options->scenes, "Scene files, or names of shipped scenes")->required()->type_name("SCENE");
   VerificationOptions& v = options->verification;
   command->add_option("--budget", v.budget_ns, "Nanoseconds a pixel of the whole frame may take")
       ->capture_default_str()

@@ -1,0 +1,107 @@
+// RTL color_sum ≡ model for every width of ROM words.
+#include "model/fixed/color_sum.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <random>
+
+#include "Vcolor_sum_words.h"
+
+namespace phongpipe {
+namespace {
+
+constexpr int kDiffuseWidth = 14;
+
+struct Inputs {
+  std::int64_t diffuse, level;
+  bool open;
+  std::uint32_t word;
+};
+
+class ColorSumRtl : public ::testing::Test {
+ protected:
+  ColorSumRtl() { rtl_.enable = 7; }
+
+  void clock() {
+    rtl_.clk = 0;
+    rtl_.eval();
+    rtl_.clk = 1;
+    rtl_.eval();
+  }
+  // The word and the gate are due two clocks after diffuse and level.
+  void feed(const Inputs& inputs) {
+    in_flight_.push_back(inputs);
+    rtl_.diffuse = static_cast<SData>(inputs.diffuse) & 0x3fff;
+    rtl_.level = static_cast<SData>(inputs.level) & 0x3fff;
+    if (in_flight_.size() >= 3) {
+      rtl_.word = static_cast<SData>(in_flight_[in_flight_.size() - 3].word);
+      rtl_.highlight_open = in_flight_[in_flight_.size() - 3].open;
+    }
+    clock();
+    if (in_flight_.size() < 3) return;
+    expect_color(in_flight_.front());
+    in_flight_.pop_front();
+  }
+  void expect_color(const Inputs& in) const {
+    for (int bits = kMinRomDataBits; bits <= kMaxRomDataBits; ++bits) {
+      DatapathConfiguration configuration;
+      configuration.diffuse_fraction_bits = kDiffuseWidth - 10;
+      configuration.rom_data_bits = bits;
+      const auto word = static_cast<std::int32_t>(in.word & ((1U << bits) - 1));
+      const int expected =
+          color_sum(configuration, clamped_diffuse(configuration, in.diffuse, in.level),
+                    in.open ? aligned_word(configuration, word) : 0);
+      const int first = (bits - kMinRomDataBits) * 8;
+      ASSERT_EQ(static_cast<int>(rtl_.colors[first / 32] >> (first % 32) & 0xff), expected)
+          << bits << " bits, diffuse " << in.diffuse << ", level " << in.level << ", word " << word
+          << ", open " << in.open;
+    }
+  }
+
+  Vcolor_sum_words rtl_;
+  std::deque<Inputs> in_flight_;
+};
+
+TEST_F(ColorSumRtl, EveryDiffuseValueAtTheExtremesOfTheOthers) {
+  for (const std::int64_t level : {std::int64_t{0}, std::int64_t{8}, std::int64_t{4087}}) {
+    for (const std::uint32_t word : {0U, 1U, 0xfffU}) {
+      for (std::int64_t diffuse = -8192; diffuse < 8192; ++diffuse) {
+        feed({diffuse, level, (diffuse & 1) != 0, word});
+      }
+    }
+  }
+}
+
+TEST_F(ColorSumRtl, RandomInputs) {
+  constexpr unsigned kSeed = 21;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937 random(kSeed);
+  for (int i = 0; i < 100'000; ++i) {
+    feed({static_cast<std::int64_t>(random() % 16384) - 8192,
+          static_cast<std::int64_t>(random() % 4096), random() % 2 == 0,
+          static_cast<std::uint32_t>(random() & 0xfff)});
+  }
+}
+
+TEST_F(ColorSumRtl, LitOnlyAboveTheLevel) {
+  rtl_.level = 100;
+  for (const auto& [diffuse, lit] : {std::pair(99, 0), {100, 0}, {101, 1}, {0x2000, 0}}) {
+    rtl_.diffuse = static_cast<SData>(diffuse);
+    clock();
+    EXPECT_EQ(rtl_.lit, lit) << "diffuse " << diffuse;
+  }
+}
+
+TEST_F(ColorSumRtl, StallHoldsTheColor) {
+  for (int i = 0; i < 4; ++i) feed({1600, 8, true, 0x40});
+  const auto before = rtl_.colors[0];
+  rtl_.enable = 0;
+  rtl_.diffuse = 0;
+  rtl_.word = 0xfff;
+  for (int i = 0; i < 4; ++i) clock();
+  EXPECT_EQ(rtl_.colors[0], before);
+}
+
+}  // namespace
+}  // namespace phongpipe
