@@ -15,6 +15,7 @@ struct FrameContext {
   const SimulationOptions& options;
   FrontEnd front_end;
   SimulationResult& result;
+  std::uint64_t delivered = 0;  // pixels that have left pixel_datapath
 
   // Cycles the framebuffer spends on pixel `place` of the stream.
   Cycle framebuffer_cycles(bool written, std::uint32_t place) const {
@@ -27,9 +28,14 @@ struct FrameContext {
   }
 
   void record(const ShadedPixel& pixel, Cycle cycle) {
+    result.datapath_cycles = cycle + 1;
+    ++delivered;
+    if (options.observe) {
+      options.observe(pixel, cycle);
+      return;
+    }
     result.stream.push_back(pixel);
     result.pixel_cycles.push_back(static_cast<std::uint32_t>(cycle));
-    result.datapath_cycles = cycle + 1;
   }
 
  private:

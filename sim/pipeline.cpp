@@ -30,7 +30,7 @@ void simulate_by_span(FrameContext& context) {
         "pixel_datapath", context, spans, framebuffer, *context.options.datapath);
   }
   sc_core::sc_start();
-  context.result.frame_colors = framebuffer.colors();
+  context.result.framebuffer = framebuffer.take_memory();
 }
 
 void simulate_by_clock(FrameContext& context) {
@@ -52,7 +52,7 @@ void simulate_by_clock(FrameContext& context) {
                                     {setup_engine, span_walker, pixel_datapath, framebuffer,
                                      triangles, spans, pixels});
   sc_core::sc_start();
-  context.result.frame_colors = framebuffer.colors();
+  context.result.framebuffer = framebuffer.take_memory();
 }
 
 }  // namespace
@@ -65,7 +65,7 @@ SimulationResult simulate(const FrameSetup& frame, const Geometry& geometry,
   simulated = true;
   configuration.check();
 
-  SimulationResult result;
+  SimulationResult result(frame);
   result.setup_cycles = schedule_cycles(record_setup(frame.plan), configuration);
   FrameContext context{frame, configuration, options, FrontEnd(frame, geometry), result};
   if (options.detail == Detail::span) {

@@ -27,14 +27,19 @@ struct SimulationOptions {
   // Random back-pressure: the framebuffer takes 1 to 8 cycles more for this share of pixels.
   int stall_percent = 0;
   std::uint32_t stall_seed = 1;
+  // Told of every pixel as it leaves pixel_datapath, in place of the record in the result.
+  std::function<void(const ShadedPixel&, std::int64_t cycle)> observe;
   // A pipeline in which nothing has moved for so many cycles is stuck.
   std::int64_t watchdog_cycles = 1'000'000;
 };
 
 struct SimulationResult {
-  std::vector<ShadedPixel> stream;           // as it leaves pixel_datapath
-  std::vector<std::uint32_t> pixel_cycles;   // the cycle each leaves in
-  std::vector<std::uint32_t> frame_colors;   // the framebuffer at the end
+  explicit SimulationResult(const FrameSetup& frame) : framebuffer(frame) {}
+
+  // Unless they are observed: the pixels as they leave pixel_datapath, and the cycle of each.
+  std::vector<ShadedPixel> stream;
+  std::vector<std::uint32_t> pixel_cycles;
+  Framebuffer framebuffer;  // at the end
   std::int64_t frame_cycles = 0;             // until the framebuffer has taken the last pixel
   std::int64_t datapath_cycles = 0;          // until pixel_datapath has delivered it
   std::int64_t setup_cycles = 0;             // of one triangle

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <queue>
+#include <stdexcept>
 #include <vector>
 
 namespace phongpipe {
@@ -12,9 +13,12 @@ const Units& units_for(Operation operation, const PipelineConfiguration& units) 
   switch (operation) {
     case Operation::add: return units.adders;
     case Operation::multiply: return units.multipliers;
-    case Operation::rsqrt: break;
+    case Operation::rsqrt: return units.rsqrt;
+    case Operation::divide:
+    case Operation::sqrt:
+    case Operation::read: break;
   }
-  return units.rsqrt;
+  throw std::logic_error("the setup engine has no unit for divisions, roots or table reads");
 }
 
 // For each node, cycles from its start to the end of the longest chain that hangs on it.

@@ -1,7 +1,7 @@
 #include "testbench/accuracy.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "testbench/error_chain.h"
 
@@ -30,21 +30,23 @@ double ErrorStatistics::share(std::uint64_t count) const {
 Accuracy measure_accuracy(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
                           const ModelFrame& model) {
   Accuracy accuracy;
-  const std::size_t pixels = model.framebuffer.colors().size();
-  accuracy.exact.assign(pixels, scene.image.background * kOutputMax);
-  accuracy.error.assign(pixels, std::numeric_limits<float>::quiet_NaN());
+  const int channels = frame.configuration.channels;
+  accuracy.exact_picture = Picture(frame.width, frame.height, channels, frame.background.data());
+  accuracy.error_picture = Picture(frame.width, frame.height, 3, kUncoveredColor.data());
   for_each_visible_pixel(scene, geometry, frame, model, [&](const ErrorChain& links) {
     double largest = 0;
-    for (int c = 0; c < frame.configuration.channels; ++c) {
+    std::uint8_t* const exact = accuracy.exact_picture.pixel(links.index);
+    for (int c = 0; c < channels; ++c) {
       accuracy.series.add(links.polynomial[c] - links.exact[c]);
       accuracy.rounding.add(links.rounded[c] - links.polynomial[c]);
       accuracy.rom.add(links.table[c] - links.rounded[c]);
       accuracy.output.add(links.output[c] - links.table[c]);
       accuracy.total.add(links.output[c] - links.exact[c]);
       largest = std::max(largest, std::fabs(links.output[c] - links.exact[c]));
+      exact[c] = static_cast<std::uint8_t>(links.exact[c] + 0.5);
     }
-    accuracy.exact[links.index] = links.exact;
-    accuracy.error[links.index] = static_cast<float>(largest);
+    const Rgb color = error_color(largest);
+    std::copy(color.begin(), color.end(), accuracy.error_picture.pixel(links.index));
   });
   return accuracy;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/fixed/model_frame.h"
-#include "model/shading/phong.h"
+#include "testbench/pictures.h"
 
 namespace phongpipe {
 
@@ -31,10 +31,8 @@ struct Accuracy {
   ErrorStatistics rom;       // index and word of the table for the power
   ErrorStatistics output;    // to 8 bits
 
-  // For pictures, a pixel of the image each: exact colour in LSB, and the largest error of a channel
-  // (NaN where nothing is covered).
-  std::vector<Color> exact;
-  std::vector<float> error;
+  Picture exact_picture;  // rounded to 8 bits
+  Picture error_picture;  // the largest error of a channel, as error_color shows it
 };
 
 // Of the visible pixels of the model's frame.

@@ -101,7 +101,6 @@ void for_each_visible_pixel(const Scene& scene, const Geometry& geometry, const 
                             const ModelFrame& model,
                             const std::function<void(const ErrorChain&)>& visit) {
   const FrontEnd front_end(frame, geometry);
-  const std::vector<std::uint32_t>& places = model.framebuffer.places();
   std::vector<Color> exact;
   ErrorChain links;
   std::uint32_t place = 0;
@@ -118,7 +117,7 @@ void for_each_visible_pixel(const Scene& scene, const Geometry& geometry, const 
       links.index = static_cast<std::size_t>(row.y) * static_cast<std::size_t>(frame.width) +
                     static_cast<std::size_t>(row.x);
       for (int i = 0; i < row.length; ++i, ++place, ++links.index) {
-        if (places[links.index] != place) continue;  // hidden
+        if (model.framebuffer.place(links.index) != place) continue;  // hidden
         chain.at(i, links);
         links.exact = exact[static_cast<std::size_t>(i)];
         for (int c = 0; c < frame.configuration.channels; ++c) {

@@ -24,8 +24,19 @@ std::size_t pixels(int width, int height) {
 
 }  // namespace
 
+Picture::Picture(int width_, int height_, int channels_, const std::uint8_t* color)
+    : width(width_), height(height_), channels(channels_) {
+  bytes.resize(pixels(width, height) * static_cast<std::size_t>(channels));
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] = color[i % static_cast<std::size_t>(channels)];
+  }
+}
+
 Picture picture_of(const std::vector<std::uint32_t>& colors, int width, int height, int channels) {
-  Picture picture{width, height, channels, {}};
+  Picture picture;
+  picture.width = width;
+  picture.height = height;
+  picture.channels = channels;
   picture.bytes.reserve(colors.size() * static_cast<std::size_t>(channels));
   for (const std::uint32_t color : colors) {
     for (int c = 0; c < channels; ++c) {
@@ -47,7 +58,10 @@ std::vector<Color> in_lsb(const std::vector<std::uint32_t>& colors, int channels
 }
 
 Picture picture_of(const std::vector<Color>& colors, int width, int height, int channels) {
-  Picture picture{width, height, channels, {}};
+  Picture picture;
+  picture.width = width;
+  picture.height = height;
+  picture.channels = channels;
   picture.bytes.reserve(colors.size() * static_cast<std::size_t>(channels));
   for (const Color& color : colors) {
     for (int c = 0; c < channels; ++c) {
@@ -57,27 +71,19 @@ Picture picture_of(const std::vector<Color>& colors, int width, int height, int 
   return picture;
 }
 
-Picture error_map(const std::vector<float>& errors, int width, int height) {
-  using Rgb = std::array<double, 3>;
-  constexpr std::array<Rgb, 5> kStops = {
-      Rgb{0, 0, 0}, Rgb{40, 40, 160}, Rgb{190, 40, 80}, Rgb{250, 180, 40}, Rgb{255, 255, 255}};
-  constexpr std::array<std::uint8_t, 3> kUncovered = {12, 40, 24};
-  Picture picture{width, height, 3, {}};
-  picture.bytes.reserve(errors.size() * 3);
-  for (const float error : errors) {
-    if (std::isnan(error)) {
-      picture.bytes.insert(picture.bytes.end(), kUncovered.begin(), kUncovered.end());
-      continue;
-    }
-    const double at = std::min(error / kErrorMapTop, 1.0) * (kStops.size() - 1);
-    const auto stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
-    const double weight = at - static_cast<double>(stop);
-    for (std::size_t c = 0; c < 3; ++c) {
-      picture.bytes.push_back(static_cast<std::uint8_t>(
-          std::lround(kStops[stop][c] * (1 - weight) + kStops[stop + 1][c] * weight)));
-    }
+Rgb error_color(double error) {
+  using Stop = std::array<double, 3>;
+  constexpr std::array<Stop, 5> kStops = {
+      Stop{0, 0, 0}, Stop{40, 40, 160}, Stop{190, 40, 80}, Stop{250, 180, 40}, Stop{255, 255, 255}};
+  const double at = std::min(error / kErrorMapTop, 1.0) * (kStops.size() - 1);
+  const auto stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+  const double weight = at - static_cast<double>(stop);
+  Rgb color{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    color[c] = static_cast<std::uint8_t>(
+        kStops[stop][c] * (1 - weight) + kStops[stop + 1][c] * weight + 0.5);
   }
-  return picture;
+  return color;
 }
 
 void write_text(const std::filesystem::path& file, const std::string& text) {

@@ -2,6 +2,7 @@
 // none is left half written.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -10,10 +11,19 @@
 
 namespace phongpipe {
 
+using Rgb = std::array<std::uint8_t, 3>;
+
 struct Picture {
   int width = 0, height = 0;
   int channels = 1;                 // 1 or 3
   std::vector<std::uint8_t> bytes;  // row by row from the top
+
+  Picture() = default;
+  // All of one colour, of which the first `channels` bytes are taken.
+  Picture(int width, int height, int channels, const std::uint8_t* color);
+  std::uint8_t* pixel(std::size_t index) {
+    return bytes.data() + index * static_cast<std::size_t>(channels);
+  }
 };
 
 // Framebuffer colours, channel 0 in the low byte.
@@ -22,10 +32,12 @@ Picture picture_of(const std::vector<std::uint32_t>& colors, int width, int heig
 std::vector<Color> in_lsb(const std::vector<std::uint32_t>& colors, int channels);
 // Real colours in LSB, rounded; grey ones if `channels` is 1.
 Picture picture_of(const std::vector<Color>& colors, int width, int height, int channels);
+
 // Errors in LSB: black at 0 over blue, red and yellow to white at kErrorMapTop and above; dark green
-// where nothing is covered (NaN).
+// where nothing is covered.
 constexpr double kErrorMapTop = 4;
-Picture error_map(const std::vector<float>& errors, int width, int height);
+constexpr Rgb kUncoveredColor = {12, 40, 24};
+Rgb error_color(double error);
 
 // Throw InputError where the file cannot be written.
 void write_png(const std::filesystem::path& file, const Picture& picture);

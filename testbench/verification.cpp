@@ -23,46 +23,63 @@ std::uint32_t triangle_at(const ModelFrame& model, std::uint64_t place) {
   return model.spans.empty() ? 0 : model.spans.back().triangle;
 }
 
-Account compare(const ModelFrame& model, const SimulationResult& result) {
-  Account account;
-  account.frame_cycles = result.frame_cycles;
-  account.datapath_cycles = result.datapath_cycles;
-  account.setup_cycles = result.setup_cycles;
-  account.rom_load_cycles = result.rom_load_cycles;
-  account.datapath_busy_cycles = result.datapath_busy_cycles;
-  account.failure = result.failure;
+// Compares an account with the model while it is simulated.
+class Comparison {
+ public:
+  explicit Comparison(const ModelFrame& model) : model_(model) {}
 
-  const std::size_t common = std::min(model.stream.size(), result.stream.size());
-  const std::size_t longer = std::max(model.stream.size(), result.stream.size());
-  account.mismatches = longer - common;
-  std::size_t first = common;
-  account.cycles_hash = 14695981039346656037U;  // FNV-1a over words
-  for (std::size_t i = 0; i < common; ++i) {
-    account.cycles_hash = (account.cycles_hash ^ result.pixel_cycles[i]) * 1099511628211U;
-    if (model.stream[i] == result.stream[i]) continue;
-    first = std::min(first, i);
-    ++account.mismatches;
-  }
-  if (account.mismatches > 0) {
-    Divergence divergence;
-    divergence.place = first;
-    divergence.triangle = triangle_at(model, first);
-    divergence.missing = first >= result.stream.size();
-    if (first < model.stream.size()) divergence.model = model.stream[first];
-    if (!divergence.missing) {
-      divergence.other = result.stream[first];
-      divergence.cycle = result.pixel_cycles[first];
+  void observe(const ShadedPixel& pixel, std::int64_t cycle) {
+    hash_ = (hash_ ^ static_cast<std::uint64_t>(cycle)) * 1099511628211U;  // FNV-1a over words
+    if (place_ < model_.stream.size() && pixel == model_.stream[place_]) {
+      ++place_;
+      return;
     }
-    account.first = divergence;
+    if (!first_) first_ = divergence(pixel, cycle);
+    ++mismatches_;
+    ++place_;
   }
-  const std::vector<std::uint32_t>& colors = model.framebuffer.colors();
-  for (std::size_t i = 0; i < colors.size(); ++i) {
-    if (result.frame_colors.size() != colors.size() || colors[i] != result.frame_colors[i]) {
-      ++account.frame_mismatches;
+
+  Account finish(const SimulationResult& result) {
+    Account account;
+    account.frame_cycles = result.frame_cycles;
+    account.datapath_cycles = result.datapath_cycles;
+    account.setup_cycles = result.setup_cycles;
+    account.rom_load_cycles = result.rom_load_cycles;
+    account.datapath_busy_cycles = result.datapath_busy_cycles;
+    account.failure = result.failure;
+    account.cycles_hash = hash_;
+    account.mismatches = mismatches_;
+    if (place_ < model_.stream.size()) {
+      account.mismatches += model_.stream.size() - place_;
+      if (!first_) {
+        first_ = divergence({}, result.datapath_cycles);
+        first_->missing = true;
+      }
     }
+    account.first = first_;
+    for (std::size_t i = 0; i < model_.framebuffer.size(); ++i) {
+      account.frame_mismatches += model_.framebuffer.color(i) != result.framebuffer.color(i);
+    }
+    return account;
   }
-  return account;
-}
+
+ private:
+  Divergence divergence(const ShadedPixel& pixel, std::int64_t cycle) const {
+    Divergence result;
+    result.place = place_;
+    result.triangle = triangle_at(model_, place_);
+    result.cycle = cycle;
+    result.other = pixel;
+    if (place_ < model_.stream.size()) result.model = model_.stream[place_];
+    return result;
+  }
+
+  const ModelFrame& model_;
+  std::size_t place_ = 0;
+  std::uint64_t mismatches_ = 0;
+  std::uint64_t hash_ = 14695981039346656037U;
+  std::optional<Divergence> first_;
+};
 
 std::uint64_t pack(const ShadedPixel& pixel) {
   return std::uint64_t{pixel.color} << 32 | std::uint64_t{pixel.y} << 16 | pixel.x;
@@ -117,8 +134,8 @@ void write_pictures(const Verification& v, const ModelFrame& model, const FrameS
   };
   write_png(file("result"),
             picture_of(model.framebuffer.colors(), frame.width, frame.height, channels));
-  write_png(file("exact"), picture_of(v.accuracy.exact, frame.width, frame.height, channels));
-  write_png(file("error"), error_map(v.accuracy.error, frame.width, frame.height));
+  write_png(file("exact"), v.accuracy.exact_picture);
+  write_png(file("error"), v.accuracy.error_picture);
 }
 
 }  // namespace
@@ -181,8 +198,8 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
   v.triangles_set_up = model.triangles_set_up;
   v.coefficient_overflows = model.coefficient_overflows;
   v.pixels = model.stream.size();
-  for (const std::uint32_t place : model.framebuffer.places()) {
-    v.visible_pixels += place != Framebuffer::kNoPixel;
+  for (std::size_t i = 0; i < model.framebuffer.size(); ++i) {
+    v.visible_pixels += model.framebuffer.place(i) != Framebuffer::kNoPixel;
   }
 
   progress("simulating SystemC and RTL");
@@ -197,8 +214,12 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
         datapath = std::make_unique<RtlDatapath>(library);
         simulation.datapath = datapath.get();
       }
+      Comparison comparison(model);
+      simulation.observe = [&comparison](const ShadedPixel& pixel, std::int64_t cycle) {
+        comparison.observe(pixel, cycle);
+      };
       return to_text(
-          compare(model, simulate(frame, geometry, v.hardware.pipeline, simulation)));
+          comparison.finish(simulate(frame, geometry, v.hardware.pipeline, simulation)));
     };
   };
   Child rtl(simulate_in_child(true));

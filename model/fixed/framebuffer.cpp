@@ -1,5 +1,7 @@
 #include "model/fixed/framebuffer.h"
 
+#include <new>
+
 namespace phongpipe {
 namespace {
 
@@ -14,21 +16,15 @@ std::uint32_t background_color(const FrameSetup& frame) {
 }  // namespace
 
 Framebuffer::Framebuffer(const FrameSetup& frame)
-    : width_(frame.width),
-      height_(frame.height),
-      colors_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
-              background_color(frame)),
-      depths_(colors_.size(), ~std::uint32_t{0}),
-      places_(colors_.size(), kNoPixel) {}
+    : width_(frame.width), height_(frame.height), background_(background_color(frame)) {
+  cells_.reset(static_cast<Cell*>(std::calloc(size(), sizeof(Cell))));
+  if (!cells_) throw std::bad_alloc();
+}
 
-bool Framebuffer::write(const ShadedPixel& pixel, std::uint32_t depth, std::uint32_t place) {
-  const std::size_t index =
-      static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(width_) + pixel.x;
-  if (depth >= depths_[index]) return false;
-  depths_[index] = depth;
-  colors_[index] = pixel.color;
-  places_[index] = place;
-  return true;
+std::vector<std::uint32_t> Framebuffer::colors() const {
+  std::vector<std::uint32_t> colors(size());
+  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = color(i);
+  return colors;
 }
 
 }  // namespace phongpipe

@@ -7,6 +7,9 @@ namespace phongpipe {
 ModelFrame run_model(const FrameSetup& frame, const Geometry& geometry, Evaluation evaluation) {
   ModelFrame result{{}, {}, Framebuffer(frame), 0, 0};
   const FrontEnd front_end(frame, geometry);
+  // Room that is not used is not touched, and so costs nothing.
+  result.stream.reserve(2 * result.framebuffer.size());
+  result.spans.reserve(result.framebuffer.size());
   PixelDatapath datapath(frame.configuration, evaluation);
   std::vector<std::uint32_t> colors;
   TriangleWork work;

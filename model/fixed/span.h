@@ -17,10 +17,10 @@ struct Span {
   RowSpan row;
   std::uint32_t triangle = 0;  // its place in Geometry::triangles
   std::uint32_t material = 0;
-  std::array<SeriesStart, 3> diffuse;
-  SeriesStart specular;
-  SeriesStart gate;
   std::int64_t depth = 0, depth_step = 0;  // kDepthFraction bits below one step of depth
+  SeriesStart specular;
+  std::array<SeriesStart, 3> diffuse;  // those of the channels in use
+  SeriesStart gate;                    // where it has a series of its own
 };
 
 // Fraction bits of the depth series; a span of 4096 pixels drifts by less than a step.

@@ -21,10 +21,13 @@ bool within(double v, double d1, double d2, int length, double limit) {
 
 SpanWalker::SpanWalker(const FrameSetup& frame)
     : configuration_(frame.configuration),
-      dropped_bits_(setup_fraction_bits(frame.configuration, 0)) {}
+      dropped_bits_(setup_fraction_bits(frame.configuration, 0)),
+      unit_(std::ldexp(1.0, dropped_bits_)),
+      diffuse_limit_(std::ldexp(1.0, configuration_.diffuse_width() - 1) - 1),
+      specular_limit_(std::ldexp(1.0, configuration_.specular_width() - 1) - 1) {}
 
 SeriesStart SpanWalker::start_series(const FixedQuadratic& t, const TriangleSetup& setup,
-                                     const RowSpan& row, int width, bool& overflow) const {
+                                     const RowSpan& row, double limit, bool& overflow) const {
   const int x = row.x - setup.x, y = row.y - setup.y;
   const SeriesStart start = {round_off(t.value(x, y), dropped_bits_),
                              round_off(t.difference(x, y), dropped_bits_),
@@ -35,8 +38,7 @@ SeriesStart SpanWalker::start_series(const FixedQuadratic& t, const TriangleSetu
   const double d1 = real(t.t5) * (2 * x + 1) + real(t.t4) * y + real(t.t2);
   // The last representable value, less what rounding the start can move a value by.
   const double drift = 1 + row.length + 0.5 * row.length * (row.length - 1.0);
-  const double limit = std::ldexp(std::ldexp(1.0, width - 1) - 1 - drift, dropped_bits_);
-  if (!within(v, d1, 2 * real(t.t5), row.length, limit)) overflow = true;
+  if (!within(v, d1, 2 * real(t.t5), row.length, (limit - drift) * unit_)) overflow = true;
   return start;
 }
 
@@ -45,15 +47,14 @@ Span SpanWalker::start(const TriangleSetup& setup, const RowSpan& row, bool& ove
   span.row = row;
   span.triangle = setup.triangle;
   span.material = setup.material;
-  const int diffuse_width = configuration_.diffuse_width();
   for (std::size_t c = 0; c < static_cast<std::size_t>(configuration_.channels); ++c) {
-    span.diffuse[c] = start_series(setup.diffuse[c], setup, row, diffuse_width, overflow);
+    span.diffuse[c] = start_series(setup.diffuse[c], setup, row, diffuse_limit_, overflow);
   }
   if (configuration_.gate == GateSource::series) {
-    span.gate = start_series(setup.gate, setup, row, diffuse_width, overflow);
+    span.gate = start_series(setup.gate, setup, row, diffuse_limit_, overflow);
   }
   span.specular =
-      start_series(setup.specular, setup, row, configuration_.specular_width(), overflow);
+      start_series(setup.specular, setup, row, specular_limit_, overflow);
   span.depth = wrap_add(setup.depth, wrap_add(wrap_mul(setup.depth_x, row.x - setup.x),
                                               wrap_mul(setup.depth_y, row.y - setup.y)));
   span.depth_step = setup.depth_x;

@@ -17,10 +17,12 @@ class SpanWalker {
 
  private:
   SeriesStart start_series(const FixedQuadratic& t, const TriangleSetup& setup, const RowSpan& row,
-                           int width, bool& overflow) const;
+                           double limit, bool& overflow) const;
 
   DatapathConfiguration configuration_;
   int dropped_bits_;  // between setup and datapath
+  double unit_;       // of the datapath, in units of the setup
+  double diffuse_limit_, specular_limit_;  // largest values of the registers
 };
 
 }  // namespace phongpipe

@@ -9,6 +9,21 @@ thread_local Recording* current = nullptr;
 
 }  // namespace
 
+OperationCounts operator+(const OperationCounts& a, const OperationCounts& b) {
+  return {a.add + b.add,       a.multiply + b.multiply, a.rsqrt + b.rsqrt,
+          a.divide + b.divide, a.sqrt + b.sqrt,         a.read + b.read};
+}
+
+OperationCounts operator-(const OperationCounts& a, const OperationCounts& b) {
+  return {a.add - b.add,       a.multiply - b.multiply, a.rsqrt - b.rsqrt,
+          a.divide - b.divide, a.sqrt - b.sqrt,         a.read - b.read};
+}
+
+bool operator==(const OperationCounts& a, const OperationCounts& b) {
+  return a.add == b.add && a.multiply == b.multiply && a.rsqrt == b.rsqrt &&
+         a.divide == b.divide && a.sqrt == b.sqrt && a.read == b.read;
+}
+
 OperationCounts Dataflow::counts() const {
   OperationCounts counts;
   for (const Node& node : nodes) {
@@ -16,6 +31,9 @@ OperationCounts Dataflow::counts() const {
       case Operation::add: ++counts.add; break;
       case Operation::multiply: ++counts.multiply; break;
       case Operation::rsqrt: ++counts.rsqrt; break;
+      case Operation::divide: ++counts.divide; break;
+      case Operation::sqrt: ++counts.sqrt; break;
+      case Operation::read: ++counts.read; break;
     }
   }
   return counts;

@@ -9,11 +9,17 @@
 
 namespace phongpipe {
 
-enum class Operation { add, multiply, rsqrt };
+// The first three are the setup engine's; software shaders also divide, take roots and read tables.
+enum class Operation { add, multiply, rsqrt, divide, sqrt, read };
 
 struct OperationCounts {
   std::size_t add = 0, multiply = 0, rsqrt = 0;
+  std::size_t divide = 0, sqrt = 0, read = 0;  // read: one word of a table in memory
 };
+OperationCounts operator+(const OperationCounts& a, const OperationCounts& b);
+OperationCounts operator-(const OperationCounts& a, const OperationCounts& b);
+bool operator==(const OperationCounts& a, const OperationCounts& b);
+inline bool operator!=(const OperationCounts& a, const OperationCounts& b) { return !(a == b); }
 
 // Nodes in the order of execution; an operand is the index of an earlier node or kInput.
 struct Dataflow {
@@ -21,7 +27,7 @@ struct Dataflow {
   struct Node {
     Operation operation;
     int left;
-    int right;  // kInput for rsqrt
+    int right;  // kInput for rsqrt, sqrt and read
   };
   std::vector<Node> nodes;
 
@@ -47,6 +53,15 @@ class Recorded {
   Recorded& operator*=(const Recorded& b) { return *this = *this * b; }
   friend Recorded rsqrt(const Recorded& x) {
     return Recorded(Operation::rsqrt, x.node_, Dataflow::kInput);
+  }
+  friend Recorded operator/(const Recorded& a, const Recorded& b) {
+    return Recorded(Operation::divide, a.node_, b.node_);
+  }
+  friend Recorded sqrt(const Recorded& x) {
+    return Recorded(Operation::sqrt, x.node_, Dataflow::kInput);
+  }
+  friend Recorded read_word(const Recorded& address) {
+    return Recorded(Operation::read, address.node_, Dataflow::kInput);
   }
   friend Recorded half(const Recorded& x) { return x; }
   friend Recorded twice(const Recorded& x) { return x; }

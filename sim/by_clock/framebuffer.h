@@ -17,7 +17,7 @@ class Framebuffer : public sc_core::sc_module {
   }
   SC_HAS_PROCESS(Framebuffer);
 
-  const std::vector<std::uint32_t>& colors() const { return memory_.colors(); }
+  phongpipe::Framebuffer take_memory() { return std::move(memory_); }
   bool busy() const { return busy_ > 0; }
   std::uint64_t moved() const { return place_; }
 

@@ -49,7 +49,7 @@ std::string ClockedPixelDatapath::stuck(Cycle cycle) const {
       "nothing has moved for {} cycles, at cycle {}: span queue {} of {}, {} pixels in "
       "pixel_datapath ({} delivered), framebuffer {}",
       context_.options.watchdog_cycles, cycle, spans_.size(), spans_.depth(),
-      driver_.pixels_in_flight(), context_.result.stream.size(),
+      driver_.pixels_in_flight(), context_.delivered,
       timing_.place_free_from() <= cycle ? "ready" : "busy");
 }
 

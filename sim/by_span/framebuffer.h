@@ -17,7 +17,7 @@ class Framebuffer : public sc_core::sc_module {
     return context_.framebuffer_cycles(written, place_++);
   }
 
-  const std::vector<std::uint32_t>& colors() const { return memory_.colors(); }
+  phongpipe::Framebuffer take_memory() { return std::move(memory_); }
 
  private:
   FrameContext& context_;

@@ -67,7 +67,7 @@ int render(const Options& options) {
       fmt::print(stderr, "warning: {} triangles have values that do not fit their registers\n",
                  model.coefficient_overflows);
     }
-    const auto& colors = model.framebuffer.colors();
+    const std::vector<std::uint32_t> colors = model.framebuffer.colors();
     if (is_pfm(options.output)) {
       write_pfm(options.output, in_lsb(colors, hardware.datapath.channels), width, height);
     } else {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -104,7 +105,7 @@ class Random {
 
 constexpr unsigned kSeed = 1986;
 constexpr int kCases = 2000;
-constexpr double kAgree = 1e-12;  // measured: infinite 5e-16, finite 7e-16
+constexpr double kAgree = 1e-12;  // measured: infinite 2.0e-15, finite 2.7e-15
 
 TEST(NormalExpansion, InfiniteIsTheTruncatedPowerSeries) {
   SCOPED_TRACE(kSeed);

@@ -1,0 +1,142 @@
+// From a method's template to a TriangleShader and to its costs.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "model/shading/methods/shading_method.h"
+#include "model/shading/phong.h"
+
+namespace phongpipe {
+
+// How a pixel's intensity comes from what the method gives.
+enum class Output {
+  intensity,  // it is the intensity
+  palette,    // the method's table holds intensities in place of cosines
+  cosines,    // diffuse + power(highlight)
+  spot,       // the same, times a power of the cosine off the axis, from a table
+};
+
+// One channel; colours scale the polynomials in set-up, so that no multiplication is left.
+template <typename T>
+T combine(Output output, Parts parts, const Reflection<T>& r, const Power& power) {
+  T sum = r.diffuse;
+  if (output == Output::intensity || output == Output::palette) return sum;
+  if (parts == Parts::full) sum += power(r.highlight);
+  return output == Output::spot ? sum * power(r.spot) : sum;
+}
+
+// Methods whose form can degenerate say so themselves.
+template <typename Method, typename = void>
+struct CanDegenerate : std::false_type {};
+template <typename Method>
+struct CanDegenerate<Method,
+                     std::void_t<decltype(std::declval<const Method&>().degenerate(0.0, 0.0, 0))>>
+    : std::true_type {};
+
+template <typename Method, Parts kParts>
+class MethodShader : public TriangleShader {
+ public:
+  explicit MethodShader(const ShaderContext& context)
+      : context_(context), power_(context.power), method_(shading_input(context)) {
+    const Material& material = context.material;
+    const Light& light = context.scene.lights.front();
+    ambient_ = context.scene.shading.ambient_light * material.ambient;
+    // A method renders a light that fades with distance only where that fading is constant.
+    const Color color = light.type == LightType::directional
+                            ? light.color
+                            : Color(light.color / light.attenuation[0]);
+    diffuse_ = color * material.diffuse;
+    specular_ = color * material.specular;
+    if (light.type == LightType::spot) {
+      spot_exponent_ = light.spot_exponent;
+      spot_least_ = std::cos(light.spot_cutoff_degrees * kDegrees);
+    }
+  }
+
+  void shade(int x, int y, int length, Color* colors) override {
+    if (degenerate(x, y, length)) {
+      ++exact_spans_;
+      PhongTriangle(context_.scene, context_.material, context_.triangle)
+          .shade(x, y, length, colors);
+      return;
+    }
+    start(x, y);
+    for (int i = 0; i < length; ++i) {
+      const Reflection<double> r = method_.next();
+      Color sum = ambient_;
+      if (r.diffuse > 0 && r.spot >= spot_least_) {
+        Color lit = diffuse_ * r.diffuse;
+        if constexpr (kParts == Parts::full) {
+          lit += specular_ * power_(std::min(1.0, r.highlight));
+        }
+        if (spot_exponent_ > 0) lit *= std::pow(r.spot, spot_exponent_);
+        sum += lit;
+      }
+      colors[i] = sum.max(0).min(1) * 255;
+    }
+  }
+
+  void reflect(int x, int y, int length, Reflection<double>* reflections) override {
+    start(x, y);
+    for (int i = 0; i < length; ++i) reflections[i] = method_.next();
+  }
+
+ private:
+  static constexpr double kDegrees = 3.14159265358979323846 / 180;
+
+  void start(int x, int y) { method_.start_span(x - context_.origin_x, y - context_.origin_y); }
+
+  bool degenerate(int x, int y, int length) const {
+    if constexpr (CanDegenerate<Method>::value) {
+      return method_.degenerate(x - context_.origin_x, y - context_.origin_y, length);
+    }
+    return false;
+  }
+
+  ShaderContext context_;
+  Power power_;
+  Method method_;
+  Color ambient_, diffuse_, specular_;
+  double spot_exponent_ = 0, spot_least_ = -2;
+};
+
+template <template <typename, Parts> class Method>
+std::unique_ptr<TriangleShader> create_shader(const ShaderContext& context) {
+  if ((context.material.specular == 0).all()) {
+    return std::make_unique<MethodShader<Method<double, Parts::diffuse>, Parts::diffuse>>(context);
+  }
+  return std::make_unique<MethodShader<Method<double, Parts::full>, Parts::full>>(context);
+}
+
+template <typename Method, Output kOutput>
+MethodCosts count(Parts parts, const Power& power) {
+  ShadingInput<Recorded> input;
+  input.power = &power;
+  Recording recording;
+  const auto so_far = [&recording] { return recording.dataflow().counts(); };
+  MethodCosts costs;
+  Method method(input);
+  costs.triangle = so_far();
+  OperationCounts before = so_far();
+  method.start_span(Recorded(), Recorded());
+  costs.span = so_far() - before;
+  before = so_far();
+  const Reflection<Recorded> reflection = method.next();
+  costs.pixel = so_far() - before;
+  before = so_far();
+  combine(kOutput, parts, reflection, power);
+  costs.combine = so_far() - before;
+  return costs;
+}
+
+template <template <typename, Parts> class Method, Output kOutput>
+MethodCosts method_costs(Parts parts, PowerKind kind) {
+  const Power power(kind, 20);  // counts do not depend on the exponent
+  return parts == Parts::full ? count<Method<Recorded, Parts::full>, kOutput>(parts, power)
+                              : count<Method<Recorded, Parts::diffuse>, kOutput>(parts, power);
+}
+
+}  // namespace phongpipe

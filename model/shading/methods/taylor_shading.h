@@ -1,0 +1,54 @@
+// Bishop & Weimer's method: the reflection equation's second-degree series, 2 additions a pixel for
+// each component. The coefficients are those of model/shading/taylor.h.
+#pragma once
+
+#include "model/shading/methods/forward_differences.h"
+#include "model/shading/methods/shading_input.h"
+
+namespace phongpipe {
+
+template <typename T, Parts kParts, bool kLocalViewer>
+class TaylorSeries {
+ public:
+  explicit TaylorSeries(const ShadingInput<T>& in) {
+    const Interpolator<T> interpolate = interpolator(in);
+    const NormalExpansion<T> normal(interpolate(in.normal[0], in.normal[1], in.normal[2]));
+    diffuse_ = normal.infinite(in.light);
+    if constexpr (kParts == Parts::full) {
+      if constexpr (kLocalViewer) {
+        // The paper's H = E + L, with E interpolated between unit vectors.
+        std::array<Vector3<T>, 3> halfway;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Vector3<T>& eye = in.eye[i];
+          halfway[i] = eye * rsqrt(eye.dot(eye)) + in.light;
+        }
+        highlight_ = normal.finite(interpolate(halfway[0], halfway[1], halfway[2]));
+      } else {
+        highlight_ = normal.infinite(in.halfway);
+      }
+    }
+  }
+
+  void start_span(const T& x, const T& y) {
+    p_ = start(diffuse_, x, y);
+    if constexpr (kParts == Parts::full) r_ = start(highlight_, x, y);
+  }
+
+  Reflection<T> next() {
+    Reflection<T> result;
+    result.diffuse = p_.next();
+    if constexpr (kParts == Parts::full) result.highlight = r_.next();
+    return result;
+  }
+
+ private:
+  Quadratic<T> diffuse_, highlight_;
+  ForwardDifferences<T, 2> p_, r_;
+};
+
+template <typename T, Parts kParts>
+using Taylor = TaylorSeries<T, kParts, false>;
+template <typename T, Parts kParts>
+using TaylorLocal = TaylorSeries<T, kParts, true>;
+
+}  // namespace phongpipe

@@ -1,0 +1,58 @@
+// The pawn at 2048×2048, as the benchmarks shade it.
+#pragma once
+
+#include <string>
+
+#include "model/fixed/front_end.h"
+#include "model/fixed/model_frame.h"
+#include "testbench/hardware.h"
+#include "testbench/installation.h"
+
+namespace phongpipe {
+
+struct PawnFrame {
+  Scene scene;
+  Geometry geometry;
+  Hardware hardware;
+  FrameSetup frame;
+  std::vector<Span> spans;
+  std::int64_t pixels = 0;
+
+  explicit PawnFrame(int size = 2048)
+      : scene(load(size)),
+        geometry(make_geometry(scene)),
+        hardware(suited(scene, geometry)),
+        frame(scene, geometry, hardware.datapath, hardware.pipeline.depth_bits) {
+    const FrontEnd front_end(frame, geometry);
+    TriangleWork work;
+    bool overflow = false;
+    for (std::uint32_t triangle = 0; triangle < front_end.triangles(); ++triangle) {
+      if (!front_end.set_up(triangle, work)) continue;
+      for (const RowSpan& row : work.rows) {
+        spans.push_back(front_end.span_walker().start(work.setup, row, overflow));
+        pixels += row.length;
+      }
+    }
+  }
+
+  const MaterialSetup& material() const { return frame.materials.front(); }
+
+ private:
+  static Scene load(int size) {
+    Scene scene = load_scene(installation().scenes / "pawn.toml");
+    scene.image.width = scene.image.height = size;
+    return scene;
+  }
+  static Hardware suited(const Scene& scene, const Geometry& geometry) {
+    Hardware hardware = load_hardware("paper-1k", {});
+    suit_scene(hardware, scene, geometry);
+    return hardware;
+  }
+};
+
+inline const PawnFrame& pawn() {
+  static const PawnFrame frame;
+  return frame;
+}
+
+}  // namespace phongpipe

@@ -1,0 +1,94 @@
+// Frames the tests of fixed point and of the pipeline are made of: random screen triangles under one
+// light, with materials that alternate.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "model/fixed/frame_setup.h"
+
+namespace phongpipe {
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : generator_(seed) {}
+
+  int integer(int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(generator_);
+  }
+  double uniform(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(generator_);
+  }
+  std::int64_t bits() {  // 64 of them
+    return static_cast<std::int64_t>(generator_());
+  }
+  Vec3 unit() {
+    for (;;) {
+      const Vec3 v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
+    }
+  }
+  Vec3 unit_near(const Vec3& axis, double largest_degrees) {
+    const Vec3 side = axis.cross(unit()).normalized();
+    const double angle = uniform(0, largest_degrees) * 3.14159265358979323846 / 180;
+    return std::cos(angle) * axis + std::sin(angle) * side;
+  }
+
+ private:
+  std::mt19937_64 generator_;
+};
+
+// One light and an eye at infinity, in front of surfaces that face +z.
+inline Scene lit_scene(int width, int height) {
+  Scene scene;
+  scene.image.width = width;
+  scene.image.height = height;
+  scene.lights.emplace_back();
+  scene.lights.front().direction = Vec3(-0.3, -0.4, -1).normalized();
+  return scene;
+}
+
+inline Material grey_material(double diffuse, double specular, double shininess) {
+  Material material;
+  material.ambient = Color::Constant(0.1);
+  material.diffuse = Color::Constant(diffuse);
+  material.specular = Color::Constant(specular);
+  material.shininess = shininess;
+  return material;
+}
+
+// `size`: largest distance of a corner from the triangle's middle, in pixels. Normals within 30° of
+// an axis that roughly faces the eye.
+inline ScreenTriangle random_triangle(Random& random, const Image& image, double size) {
+  ScreenTriangle triangle;
+  const double x = random.uniform(0, image.width), y = random.uniform(0, image.height);
+  const Vec3 axis = random.unit_near(Vec3(0, 0, 1), 50);
+  do {
+    for (ScreenVertex& vertex : triangle.vertices) {
+      vertex.x = snap(x + random.uniform(-size, size));
+      vertex.y = snap(y + random.uniform(-size, size));
+      vertex.z = random.uniform(0, 1);
+      vertex.normal = random.unit_near(axis, 30);
+      vertex.eye = random.unit_near(Vec3(0, 0, 1), 20) * random.uniform(2, 4);
+    }
+    // Slivers have gradients beyond what a register holds; they have tests of their own.
+  } while (std::llabs(signed_area(triangle)) <
+           static_cast<long long>(0.2 * size * size * kSubpixels * kSubpixels));
+  return triangle;
+}
+
+// Triangles of two materials in turn.
+inline Geometry random_geometry(Random& random, const Scene& scene, int triangles, double size) {
+  Geometry geometry;
+  geometry.materials = {grey_material(0.6, 0.3, 20), grey_material(0.4, 0.5, 60)};
+  for (int i = 0; i < triangles; ++i) {
+    geometry.triangles.push_back(random_triangle(random, scene.image, size));
+    geometry.triangles.back().material = static_cast<std::uint32_t>(random.integer(0, 1));
+  }
+  geometry.triangles_read = geometry.triangles.size();
+  return geometry;
+}
+
+}  // namespace phongpipe
