@@ -1,5 +1,5 @@
-// The ports of pixel_datapath, clock by clock: what the SystemC pipeline drives, whether the model's
-// values or the Verilated RTL are behind them.
+// The ports of pixel_datapath, clock by clock: what the SystemC pipeline drives, whether the
+// model's values or the Verilated RTL are behind them.
 #pragma once
 
 #include "model/fixed/frame_setup.h"
@@ -8,7 +8,7 @@
 namespace phongpipe {
 
 struct DatapathInputs {
-  const Span* span = nullptr;             // span_valid where not null; held until span_ready
+  const Span* span = nullptr;               // span_valid where not null; held until span_ready
   const MaterialSetup* material = nullptr;  // of the span, and of the table that is written
   bool pixel_ready = false;
   bool rom_write = false;  // one word of every channel at rom_address

@@ -1,6 +1,6 @@
 // A bounded queue between modules that act in every clock. What one clock writes is seen in the
-// next, and so is the place that one clock frees: both flags are registered, as in hardware. (sc_fifo
-// is like it, but its front can not be looked at without taking it, as valid/ready wants.)
+// next, and so is the place that one clock frees: both flags are registered, as in hardware.
+// (sc_fifo is like it, but its front can not be looked at without taking it, as valid/ready wants.)
 #pragma once
 
 #include <systemc>

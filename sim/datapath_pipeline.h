@@ -1,5 +1,5 @@
-// pixel_datapath by the clock: the model's values in kDatapathLatency stages, each of which moves on
-// when the next one is free.
+// pixel_datapath by the clock: the model's values in kDatapathLatency stages, each of which moves
+// on when the next one is free.
 #pragma once
 
 #include <array>

@@ -19,24 +19,27 @@ struct FrameContext {
 
   // Cycles the framebuffer spends on pixel `place` of the stream.
   Cycle framebuffer_cycles(bool written, std::uint32_t place) const {
-    const Cycle cycles = written ? configuration.framebuffer_write_cycles
-                                 : configuration.framebuffer_test_cycles;
+    const Cycle cycles =
+        written ? configuration.framebuffer_write_cycles : configuration.framebuffer_test_cycles;
     if (options.stall_percent == 0) return cycles;
     const std::uint32_t random = scramble(place * 2654435769U + options.stall_seed);
     const bool stalled = random % 100 < static_cast<std::uint32_t>(options.stall_percent);
     return cycles + (stalled ? 1 + (random >> 16) % 8 : 0);
   }
 
-  void record(const ShadedPixel& pixel, Cycle cycle) {
-    result.datapath_cycles = cycle + 1;
-    ++delivered;
+  void record(const ShadedPixel* pixels, const Cycle* cycles, std::size_t count) {
+    result.datapath_cycles = cycles[count - 1] + 1;
+    delivered += count;
     if (options.observe) {
-      options.observe(pixel, cycle);
+      options.observe(pixels, cycles, count);
       return;
     }
-    result.stream.push_back(pixel);
-    result.pixel_cycles.push_back(static_cast<std::uint32_t>(cycle));
+    result.stream.insert(result.stream.end(), pixels, pixels + count);
+    for (std::size_t i = 0; i < count; ++i) {
+      result.pixel_cycles.push_back(static_cast<std::uint32_t>(cycles[i]));
+    }
   }
+  void record(const ShadedPixel& pixel, Cycle cycle) { record(&pixel, &cycle, 1); }
 
  private:
   // So that the same pixel stalls whatever the detail and whatever is behind the ports; the mixing

@@ -48,9 +48,9 @@ void simulate_by_clock(FrameContext& context) {
   by_clock::SpanWalker span_walker("span_walker", context, clk, triangles, spans);
   by_clock::PixelDatapath pixel_datapath("pixel_datapath", context, clk, spans, pixels, datapath);
   by_clock::Framebuffer framebuffer("framebuffer", context, clk, pixels);
-  const by_clock::Watchdog watchdog("watchdog", context, period,
-                                    {setup_engine, span_walker, pixel_datapath, framebuffer,
-                                     triangles, spans, pixels});
+  const by_clock::Watchdog watchdog(
+      "watchdog", context, period,
+      {setup_engine, span_walker, pixel_datapath, framebuffer, triangles, spans, pixels});
   sc_core::sc_start();
   context.result.framebuffer = framebuffer.take_memory();
 }
@@ -63,6 +63,9 @@ SimulationResult simulate(const FrameSetup& frame, const Geometry& geometry,
   static bool simulated = false;
   if (simulated) throw std::logic_error("SystemC elaborates once a process; simulate in a child");
   simulated = true;
+  // That the simulation ends by sc_stop is no news.
+  sc_core::sc_report_handler::set_actions("/OSCI/SystemC", sc_core::SC_INFO,
+                                          sc_core::SC_DO_NOTHING);
   configuration.check();
 
   SimulationResult result(frame);
@@ -77,6 +80,3 @@ SimulationResult simulate(const FrameSetup& frame, const Geometry& geometry,
 }
 
 }  // namespace phongpipe
-
-// The SystemC library has a main that calls this; our programs have their own.
-int sc_main(int, char*[]) { return 0; }

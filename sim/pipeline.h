@@ -1,10 +1,11 @@
-// The SystemC pipeline: setup_engine, span_walker, pixel_datapath and framebuffer, joined by bounded
-// queues with back-pressure, over one frame.
+// The SystemC pipeline: setup_engine, span_walker, pixel_datapath and framebuffer, joined by
+// bounded queues with back-pressure, over one frame.
 //
 //   by_span   modules run ahead of the kernel and keep time in timestamped queues
 //   by_clock  every module acts in every clock
 //
-// Both give the same cycle for every pixel. Cycle 0 is the first cycle of the first triangle's setup.
+// Both give the same cycle for every pixel. Cycle 0 is the first cycle of the first triangle's
+// setup.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +28,10 @@ struct SimulationOptions {
   // Random back-pressure: the framebuffer takes 1 to 8 cycles more for this share of pixels.
   int stall_percent = 0;
   std::uint32_t stall_seed = 1;
-  // Told of every pixel as it leaves pixel_datapath, in place of the record in the result.
-  std::function<void(const ShadedPixel&, std::int64_t cycle)> observe;
+  // Told of the pixels as they leave pixel_datapath, with the cycle of each, in place of the record
+  // in the result.
+  std::function<void(const ShadedPixel* pixels, const std::int64_t* cycles, std::size_t count)>
+      observe;
   // A pipeline in which nothing has moved for so many cycles is stuck.
   std::int64_t watchdog_cycles = 1'000'000;
 };
@@ -39,14 +42,16 @@ struct SimulationResult {
   // Unless they are observed: the pixels as they leave pixel_datapath, and the cycle of each.
   std::vector<ShadedPixel> stream;
   std::vector<std::uint32_t> pixel_cycles;
-  Framebuffer framebuffer;  // at the end
-  std::int64_t frame_cycles = 0;             // until the framebuffer has taken the last pixel
-  std::int64_t datapath_cycles = 0;          // until pixel_datapath has delivered it
-  std::int64_t setup_cycles = 0;             // of one triangle
+  Framebuffer framebuffer;           // at the end; values are colours
+  std::int64_t frame_cycles = 0;     // until the framebuffer has taken the last pixel
+  std::int64_t datapath_cycles = 0;  // until pixel_datapath has delivered it
+  std::int64_t setup_cycles = 0;     // of one triangle
   std::int64_t rom_load_cycles = 0;
-  // In which a ClockedDatapath held a pixel or was offered a span; 0 for the closed form by the span.
+  // In which a ClockedDatapath held a pixel or was offered a span; 0 for the closed form by the
+  // span.
   std::int64_t datapath_busy_cycles = 0;
-  std::string failure;  // why the pipeline got stuck, with every module's queue; empty if it did not
+  std::string
+      failure;  // why the pipeline got stuck, with every module's queue; empty if it did not
 };
 
 // Simulates one frame. SystemC elaborates once a process: a second call throws std::logic_error.

@@ -20,13 +20,33 @@ class PixelTiming {
  public:
   explicit PixelTiming(int depth) : read_(static_cast<std::size_t>(depth), -1) { out_.fill(-1); }
 
-  // The next pixel, which may enter from cycle `asked` and takes the framebuffer `cost` cycles.
-  void next(Cycle asked, Cycle cost) {
-    in_ = std::max({asked, in_ + 1, out_[out_place_]});
-    last_out_ = std::max({in_ + kDatapathLatency, last_out_ + 1, place_free_from()});
-    out_[out_place_] = last_out_;
-    out_place_ = (out_place_ + 1) % out_.size();
-    read(last_out_, cost);
+  // The next `count` pixels, the first of which may enter from cycle `asked`. `cycles` holds what
+  // each takes the framebuffer, and is overwritten by the cycle each leaves in. Returns the cycle
+  // the first one enters in.
+  Cycle next(Cycle asked, std::size_t count, Cycle* cycles) {
+    // What cycles[i] may alias, as far as the compiler can tell, is kept in locals meanwhile.
+    std::array<Cycle, kDatapathLatency> out = out_;
+    Cycle in = in_, last_out = last_out_, free_from = free_from_, taken = 0;
+    std::size_t place = read_place_;
+    Cycle* const reads = read_.data();
+    const std::size_t depth = read_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      in = std::max({asked, in + 1, out[0]});
+      if (i == 0) taken = in;
+      last_out = std::max({in + kDatapathLatency, last_out + 1, reads[place] + 1});
+      std::copy(out.begin() + 1, out.end(), out.begin());
+      out.back() = last_out;
+      reads[place] = std::max(last_out + 1, free_from);
+      free_from = reads[place] + cycles[i];
+      if (++place == depth) place = 0;
+      cycles[i] = last_out;
+    }
+    out_ = out;
+    in_ = in;
+    last_out_ = last_out;
+    free_from_ = free_from;
+    read_place_ = place;
+    return taken;
   }
 
   // The framebuffer's part alone: a pixel that left the datapath in cycle `out`.
@@ -40,14 +60,12 @@ class PixelTiming {
   // The first cycle in which the queue before the framebuffer has a place for the next pixel.
   Cycle place_free_from() const { return read_[read_place_] + 1; }
 
-  Cycle in() const { return in_; }
   Cycle out() const { return last_out_; }
   Cycle end() const { return free_from_; }  // the framebuffer is done with all pixels so far
 
  private:
   Cycle in_ = -1, last_out_ = -1, free_from_ = 0;
-  std::array<Cycle, kDatapathLatency> out_;
-  std::size_t out_place_ = 0;
+  std::array<Cycle, kDatapathLatency> out_;  // of the last pixels, the earliest first
   std::vector<Cycle> read_;
   std::size_t read_place_ = 0;
 };

@@ -11,12 +11,16 @@ namespace {
 
 const Units& units_for(Operation operation, const PipelineConfiguration& units) {
   switch (operation) {
-    case Operation::add: return units.adders;
-    case Operation::multiply: return units.multipliers;
-    case Operation::rsqrt: return units.rsqrt;
+    case Operation::add:
+      return units.adders;
+    case Operation::multiply:
+      return units.multipliers;
+    case Operation::rsqrt:
+      return units.rsqrt;
     case Operation::divide:
     case Operation::sqrt:
-    case Operation::read: break;
+    case Operation::read:
+      break;
   }
   throw std::logic_error("the setup engine has no unit for divisions, roots or table reads");
 }

@@ -6,8 +6,8 @@
 // there is no item, or no place, at all.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <deque>
 #include <systemc>
 #include <vector>
 
@@ -19,16 +19,17 @@ template <typename T>
 class TimestampedFifo : public sc_core::sc_prim_channel {
  public:
   TimestampedFifo(const char* name, int depth)
-      : sc_core::sc_prim_channel(name), read_at_(static_cast<std::size_t>(depth), -1) {}
+      : sc_core::sc_prim_channel(name), places_(static_cast<std::size_t>(depth)) {}
 
   // Writes no earlier than `earliest`; returns the cycle of the writing. Waits for a place.
   Cycle write(T item, Cycle earliest) {
-    while (items_.size() == read_at_.size()) wait(read_event_);
-    const Cycle cycle = std::max(earliest, read_at_[written_ % read_at_.size()] + 1);
-    ++written_;
-    items_.push_back({std::move(item), cycle});
+    while (size_ == places_.size()) wait(read_event_);
+    Place& place = places_[(first_ + size_) % places_.size()];
+    place.item = std::move(item);
+    place.written_at = std::max(earliest, place.read_at + 1);
+    ++size_;
     written_event_.notify(sc_core::SC_ZERO_TIME);
-    return cycle;
+    return place.written_at;
   }
 
   // No more items will come.
@@ -39,33 +40,33 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
 
   // Waits for an item; false where there will be none.
   bool wait_for_item() {
-    while (items_.empty() && !closed_) wait(written_event_);
-    return !items_.empty();
+    while (size_ == 0 && !closed_) wait(written_event_);
+    return size_ > 0;
   }
-  const T& front() const { return items_.front().item; }
-  Cycle front_seen_from() const { return items_.front().written_at + 1; }
+  // The front item stays where it is until another one is written to its place, that is, as long as
+  // its reader does not wait.
+  const T& front() const { return places_[first_].item; }
+  Cycle front_seen_from() const { return places_[first_].written_at + 1; }
 
   // Takes the front item in the given cycle.
-  T pop(Cycle cycle) {
-    T item = std::move(items_.front().item);
-    items_.pop_front();
-    read_at_[read_ % read_at_.size()] = cycle;
-    ++read_;
+  void pop(Cycle cycle) {
+    places_[first_].read_at = cycle;
+    first_ = (first_ + 1) % places_.size();
+    --size_;
     read_event_.notify(sc_core::SC_ZERO_TIME);
-    return item;
   }
 
-  std::size_t size() const { return items_.size(); }
-  std::size_t depth() const { return read_at_.size(); }
+  std::size_t size() const { return size_; }
+  std::size_t depth() const { return places_.size(); }
 
  private:
-  struct Entry {
-    T item;
-    Cycle written_at;
+  struct Place {
+    T item{};
+    Cycle written_at = -1;
+    Cycle read_at = -1;  // of the item before
   };
-  std::deque<Entry> items_;
-  std::vector<Cycle> read_at_;  // of the item `depth` before, in the place of each
-  std::uint64_t written_ = 0, read_ = 0;
+  std::vector<Place> places_;
+  std::size_t first_ = 0, size_ = 0;
   bool closed_ = false;
   sc_core::sc_event written_event_, read_event_;
 };

@@ -21,7 +21,9 @@ double ErrorStatistics::rms() const {
   return samples == 0 ? 0 : std::sqrt(sum_of_squares / static_cast<double>(samples));
 }
 
-double ErrorStatistics::psnr_db() const { return 20 * std::log10(kOutputMax / rms()); }
+double ErrorStatistics::psnr_db() const {
+  return 20 * std::log10(kOutputMax / rms());
+}
 
 double ErrorStatistics::share(std::uint64_t count) const {
   return samples == 0 ? 0 : static_cast<double>(count) / static_cast<double>(samples);

@@ -19,16 +19,15 @@ class TriangleChain {
         front_end_(front_end) {
     front_end.set_up(triangle, work_);
     real_ = SetupEngine(frame, geometry).coefficients(triangle, work_.setup.x, work_.setup.y);
-    for (Eigen::Index c = 0; c < 3; ++c) {
+    for (Eigen::Index c = 0; c < configuration_.channels; ++c) {
       ambient_[c] = kOutputMax * scene.shading.ambient_light[c] * material_.ambient[c];
+      const auto level = static_cast<double>(setup_.level[static_cast<std::size_t>(c)]);
+      rounded_ambient_[c] = std::ldexp(level, -configuration_.diffuse_fraction_bits) - 0.5;
       highlight_[c] = kOutputMax * scene.lights.front().color[c] * material_.specular[c];
     }
   }
 
-  void start(const RowSpan& row) {
-    bool overflow = false;
-    span_ = front_end_.span_walker().start(work_.setup, row, overflow);
-  }
+  void start(const RowSpan& row) { span_ = front_end_.span_walker().start(work_.setup, row); }
 
   // The links of pixel i of the span; exact and output are left alone.
   void at(int i, ErrorChain& chain) const {
@@ -49,18 +48,18 @@ class TriangleChain {
     const double rounded_power =
         power(std::ldexp(static_cast<double>(specular), -configuration_.specular_fraction_bits) /
               full_scale);
-    const auto address =
-        static_cast<std::size_t>(ExponentRom::address(configuration_, specular));
+    const auto address = static_cast<std::size_t>(ExponentRom::address(configuration_, specular));
 
     const bool real_open = open(real, real_.gate(x, y));
     const bool rounded_open = open(rounded, static_cast<double>(gate));
     for (std::size_t c = 0; c < channels; ++c) {
       const auto k = static_cast<Eigen::Index>(c);
-      const double word = std::ldexp(setup_.roms[c].words()[address],
-                                     kOutputBits - configuration_.rom_data_bits);
-      chain.polynomial[k] = sum(k, real[c], real_open ? highlight_[k] * real_power : 0);
-      chain.rounded[k] = sum(k, rounded[c], rounded_open ? highlight_[k] * rounded_power : 0);
-      chain.table[k] = sum(k, rounded[c], rounded_open ? word : 0);
+      const double word =
+          std::ldexp(setup_.roms[c].words()[address], kOutputBits - configuration_.rom_data_bits);
+      chain.polynomial[k] = sum(k, ambient_, real[c], real_open ? highlight_[k] * real_power : 0);
+      chain.rounded[k] =
+          sum(k, rounded_ambient_, rounded[c], rounded_open ? highlight_[k] * rounded_power : 0);
+      chain.table[k] = sum(k, rounded_ambient_, rounded[c], rounded_open ? word : 0);
     }
   }
 
@@ -75,14 +74,17 @@ class TriangleChain {
   }
   bool open(const std::array<double, 3>& diffuse, double gate) const {
     switch (configuration_.gate) {
-      case GateSource::off: return true;
-      case GateSource::series: return gate > 0;
-      case GateSource::diffuse: break;
+      case GateSource::off:
+        return true;
+      case GateSource::series:
+        return gate > 0;
+      case GateSource::diffuse:
+        break;
     }
     return diffuse[0] > 0 || diffuse[1] > 0 || diffuse[2] > 0;
   }
-  double sum(Eigen::Index channel, double diffuse, double highlight) const {
-    return std::min<double>(kOutputMax, ambient_[channel] + std::max(0.0, diffuse) + highlight);
+  static double sum(Eigen::Index channel, const Color& ambient, double diffuse, double highlight) {
+    return std::min<double>(kOutputMax, ambient[channel] + std::max(0.0, diffuse) + highlight);
   }
 
   const DatapathConfiguration& configuration_;
@@ -91,7 +93,7 @@ class TriangleChain {
   const FrontEnd& front_end_;
   TriangleWork work_;
   TriangleCoefficients<double> real_;
-  Color ambient_, highlight_;
+  Color ambient_, rounded_ambient_, highlight_;
   Span span_;
 };
 
@@ -117,11 +119,12 @@ void for_each_visible_pixel(const Scene& scene, const Geometry& geometry, const 
       links.index = static_cast<std::size_t>(row.y) * static_cast<std::size_t>(frame.width) +
                     static_cast<std::size_t>(row.x);
       for (int i = 0; i < row.length; ++i, ++place, ++links.index) {
-        if (model.framebuffer.place(links.index) != place) continue;  // hidden
+        if (model.framebuffer.value(links.index) != place) continue;  // hidden
         chain.at(i, links);
         links.exact = exact[static_cast<std::size_t>(i)];
         for (int c = 0; c < frame.configuration.channels; ++c) {
-          links.output[c] = (model.stream[place].color >> (c * kOutputBits)) & std::uint32_t{kOutputMax};
+          links.output[c] =
+              (model.stream[place].color >> (c * kOutputBits)) & std::uint32_t{kOutputMax};
         }
         visit(links);
       }

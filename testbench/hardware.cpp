@@ -107,7 +107,9 @@ void apply_override(Hardware& hardware, const std::string& text, std::string& te
 
 }  // namespace
 
-std::string Setting::name() const { return fmt::format("{}.{}", section, key); }
+std::string Setting::name() const {
+  return fmt::format("{}.{}", section, key);
+}
 
 std::string Setting::value() const {
   return choices.empty() ? fmt::format("{}", get())
@@ -118,7 +120,9 @@ std::vector<Setting> settings(Hardware& hardware) {
   DatapathConfiguration& d = hardware.datapath;
   PipelineConfiguration& p = hardware.pipeline;
   Setting channels = {"datapath", "channels", {"auto", "1", "3"}, nullptr, nullptr};
-  channels.get = [&hardware] { return hardware.choose_channels ? 0 : (hardware.datapath.channels + 1) / 2; };
+  channels.get = [&hardware] {
+    return hardware.choose_channels ? 0 : (hardware.datapath.channels + 1) / 2;
+  };
   channels.put = [&hardware](int index) {
     hardware.choose_channels = index == 0;
     if (index > 0) hardware.datapath.channels = 2 * index - 1;

@@ -15,9 +15,10 @@ const Installation& installation() {
     const fs::path prefix = fs::read_symlink("/proc/self/exe").parent_path().parent_path();
     const fs::path shared = prefix / "share" / "phongpipe";
     if (!fs::exists(shared / "hw")) {
-      throw InputError(fmt::format("{}: no RTL here; keep bin/, lib/ and share/ together as "
-                                   "cmake --install lays them out",
-                                   shared.string()));
+      throw InputError(
+          fmt::format("{}: no RTL here; keep bin/, lib/ and share/ together as "
+                      "cmake --install lays them out",
+                      shared.string()));
     }
     return Installation{shared / "hw", shared / "rtl", shared / "scenes",
                         prefix / "lib" / "phongpipe"};

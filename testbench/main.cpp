@@ -6,13 +6,15 @@
 
 int main(int argc, char** argv) {
   CLI::App application(
-      "phongpipe simulates the fixed-point pipeline of Bishop & Weimer's Fast Phong Shading (1986),\n"
+      "phongpipe simulates the fixed-point pipeline of Bishop & Weimer's Fast Phong Shading "
+      "(1986),\n"
       "pixel by pixel in a C++ model, in SystemC and in Verilated RTL.");
   application.name("phongpipe");
   application.require_subcommand(1);
   application.set_version_flag("--version", "phongpipe " PHONGPIPE_VERSION);
-  application.footer("`phongpipe COMMAND --help` tells more.\n"
-                     "Example: phongpipe verify testbench/scenes/teapot.toml --out out\n");
+  application.footer(
+      "`phongpipe COMMAND --help` tells more.\n"
+      "Example: phongpipe verify testbench/scenes/teapot.toml --out out\n");
   phongpipe::Run run;
   phongpipe::add_render(application, run);
   phongpipe::add_verify(application, run);

@@ -73,15 +73,15 @@ Picture picture_of(const std::vector<Color>& colors, int width, int height, int 
 
 Rgb error_color(double error) {
   using Stop = std::array<double, 3>;
-  constexpr std::array<Stop, 5> kStops = {
-      Stop{0, 0, 0}, Stop{40, 40, 160}, Stop{190, 40, 80}, Stop{250, 180, 40}, Stop{255, 255, 255}};
+  constexpr std::array<Stop, 5> kStops = {Stop{0, 0, 0}, Stop{40, 40, 160}, Stop{190, 40, 80},
+                                          Stop{250, 180, 40}, Stop{255, 255, 255}};
   const double at = std::min(error / kErrorMapTop, 1.0) * (kStops.size() - 1);
   const auto stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
   const double weight = at - static_cast<double>(stop);
   Rgb color{};
   for (std::size_t c = 0; c < 3; ++c) {
-    color[c] = static_cast<std::uint8_t>(
-        kStops[stop][c] * (1 - weight) + kStops[stop + 1][c] * weight + 0.5);
+    color[c] = static_cast<std::uint8_t>(kStops[stop][c] * (1 - weight) +
+                                         kStops[stop + 1][c] * weight + 0.5);
   }
   return color;
 }

@@ -33,8 +33,8 @@ std::vector<Color> in_lsb(const std::vector<std::uint32_t>& colors, int channels
 // Real colours in LSB, rounded; grey ones if `channels` is 1.
 Picture picture_of(const std::vector<Color>& colors, int width, int height, int channels);
 
-// Errors in LSB: black at 0 over blue, red and yellow to white at kErrorMapTop and above; dark green
-// where nothing is covered.
+// Errors in LSB: black at 0 over blue, red and yellow to white at kErrorMapTop and above; dark
+// green where nothing is covered.
 constexpr double kErrorMapTop = 4;
 constexpr Rgb kUncoveredColor = {12, 40, 24};
 Rgb error_color(double error);

@@ -121,10 +121,10 @@ std::string Child::get() {
   const int status = wait_for(process_);
   process_ = -1;
   if (text.empty()) {
-    throw std::runtime_error(
-        fmt::format("a child process ended without a result ({})",
-                    WIFSIGNALED(status) ? fmt::format("signal {}", WTERMSIG(status))
-                                        : fmt::format("status {}", WEXITSTATUS(status))));
+    throw std::runtime_error(fmt::format("a child process ended without a result ({})",
+                                         WIFSIGNALED(status)
+                                             ? fmt::format("signal {}", WTERMSIG(status))
+                                             : fmt::format("status {}", WEXITSTATUS(status))));
   }
   if (text.front() == kException) throw std::runtime_error(text.substr(1));
   return text.substr(1);

@@ -14,8 +14,8 @@ struct ProcessOutput {
 
 ProcessOutput run_process(const std::vector<std::string>& command);
 
-// Runs `work` in a child process, at the same time as the caller goes on, and hands back the text it
-// returns. An exception in the child becomes a std::runtime_error in get().
+// Runs `work` in a child process, at the same time as the caller goes on, and hands back the text
+// it returns. An exception in the child becomes a std::runtime_error in get().
 class Child {
  public:
   explicit Child(const std::function<std::string()>& work);

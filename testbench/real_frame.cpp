@@ -42,12 +42,12 @@ std::vector<Color> render_phong(const Scene& scene, const Geometry& geometry) {
     for (const RowSpan& row : rows) {
       row_colors.resize(std::max(row_colors.size(), static_cast<std::size_t>(row.length)));
       phong.shade(row.x, row.y, row.length, row_colors.data());
-      const std::size_t first = static_cast<std::size_t>(row.y) *
-                                    static_cast<std::size_t>(scene.image.width) +
-                                static_cast<std::size_t>(row.x);
+      const std::size_t first =
+          static_cast<std::size_t>(row.y) * static_cast<std::size_t>(scene.image.width) +
+          static_cast<std::size_t>(row.x);
       for (std::size_t i = 0; i < static_cast<std::size_t>(row.length); ++i) {
-        const double z = depth.a * (row.x + static_cast<double>(i) + 0.5) +
-                         depth.b * (row.y + 0.5) + depth.c;
+        const double z =
+            depth.a * (row.x + static_cast<double>(i) + 0.5) + depth.b * (row.y + 0.5) + depth.c;
         if (z >= depths[first + i]) continue;
         depths[first + i] = z;
         colors[first + i] = row_colors[i];
@@ -63,7 +63,8 @@ std::vector<Color> render_taylor(const Scene& scene, const Geometry& geometry,
   const ModelFrame model = run_model(frame, geometry);
   for_each_visible_pixel(scene, geometry, frame, model, [&](const ErrorChain& links) {
     colors[links.index] = links.polynomial;
-    if (frame.configuration.channels == 1) colors[links.index] = Color::Constant(links.polynomial[0]);
+    if (frame.configuration.channels == 1)
+      colors[links.index] = Color::Constant(links.polynomial[0]);
   });
   return colors;
 }

@@ -21,8 +21,8 @@ class Page {
   void plain(const std::string& text) { text_ += text + "\n"; }
   std::string verdict(bool good, const std::string& text) const {
     if (!color_) return text;
-    const auto style = fmt::emphasis::bold | fmt::fg(good ? fmt::terminal_color::green
-                                                          : fmt::terminal_color::red);
+    const auto style =
+        fmt::emphasis::bold | fmt::fg(good ? fmt::terminal_color::green : fmt::terminal_color::red);
     return fmt::format(style, "{}", text);
   }
   const std::string& text() const { return text_; }
@@ -45,15 +45,16 @@ std::string color_text(std::uint32_t color, int channels) {
 void report_account(Page& page, const char* name, const Account& account, const Verification& v) {
   const bool good =
       account.mismatches == 0 && account.frame_mismatches == 0 && account.failure.empty();
-  page.line(name, "{}",
-            page.verdict(good, fmt::format("{} mismatches in {} pixels, {} in the final frame",
-                                           account.mismatches, v.pixels,
-                                           account.frame_mismatches)));
+  page.line(
+      name, "{}",
+      page.verdict(good, fmt::format("{} mismatches in {} pixels, {} in the final frame",
+                                     account.mismatches, v.pixels, account.frame_mismatches)));
   if (!account.failure.empty()) page.line("", "{}", page.verdict(false, account.failure));
   if (!account.first) return;
   const Divergence& d = *account.first;
   const int channels = v.hardware.datapath.channels;
-  page.line("", "first divergence: pixel {} of the stream, triangle {}, x {}, y {}, cycle {}, seed {}",
+  page.line("",
+            "first divergence: pixel {} of the stream, triangle {}, x {}, y {}, cycle {}, seed {}",
             d.place, d.triangle, d.model.x, d.model.y, d.cycle, v.options.seed);
   page.line("", "model:   {}", color_text(d.model.color, channels));
   page.line("", "{:<8} {}", fmt::format("{}:", name),
@@ -132,8 +133,10 @@ std::string report_text(const Verification& v, bool color) {
                                      v.within_budget() ? "under" : "OVER", v.options.budget_ns)));
   report_accuracy(page, v.accuracy);
   if (v.rom_error > 0.01) {
-    page.line("warning", "the ROM errs by up to {:.2f} % of a full highlight; raise "
-              "rom_address_bits, or lower the shininess", 100 * v.rom_error);
+    page.line("warning",
+              "the ROM errs by up to {:.2f} % of a full highlight; raise "
+              "rom_address_bits, or lower the shininess",
+              100 * v.rom_error);
   }
   if (v.coefficient_overflows > 0) {
     page.line("overflow", "{}",
@@ -161,38 +164,41 @@ nlohmann::ordered_json report_json(const Verification& v) {
   configuration["datapath"]["channels"] = hardware.datapath.channels;
   const Accuracy& a = v.accuracy;
   const double psnr = a.total.psnr_db();
-  return {
-      {"scene", v.scene.string()},
-      {"configuration", configuration},
-      {"configuration_hash", configuration_hash(v.hardware)},
-      {"triangles", v.triangles},
-      {"pixels", v.pixels},
-      {"mismatches", {{"model_rtl", v.rtl.mismatches + v.rtl.frame_mismatches},
-                      {"model_systemc", v.systemc.mismatches + v.systemc.frame_mismatches}}},
-      {"cycles", {{"frame", v.systemc.frame_cycles},
-                  {"datapath_rtl", v.rtl.datapath_cycles},
-                  {"datapath_systemc", v.systemc.datapath_cycles},
-                  {"difference", v.cycle_difference()},
-                  {"setup_per_triangle", v.systemc.setup_cycles},
-                  {"rom_load", v.systemc.rom_load_cycles}}},
-      {"clock_ns", v.hardware.clock_ns()},
-      {"clock_source", v.hardware.technology.source},
-      {"ns_per_pixel", {{"datapath", v.datapath_ns()}, {"frame", v.frame_ns()}}},
-      {"budget_ns", v.options.budget_ns},
-      {"within_budget", v.within_budget()},
-      {"accuracy", {{"max_lsb", a.total.largest},
-                    {"rms_lsb", a.total.rms()},
-                    {"psnr_db", std::isfinite(psnr) ? nlohmann::ordered_json(psnr) : nullptr},
-                    {"over_half", a.total.share(a.total.over_half)},
-                    {"over_one", a.total.share(a.total.over_one)},
-                    {"over_two", a.total.share(a.total.over_two)}}},
-      {"accuracy_split", {{"series", statistics_json(a.series)},
-                          {"rounding", statistics_json(a.rounding)},
-                          {"rom", statistics_json(a.rom)},
-                          {"output", statistics_json(a.output)}}},
-      {"coefficient_overflows", v.coefficient_overflows},
-      {"seed", v.options.seed},
-      {"passed", v.passed()}};
+  return {{"scene", v.scene.string()},
+          {"configuration", configuration},
+          {"configuration_hash", configuration_hash(v.hardware)},
+          {"triangles", v.triangles},
+          {"pixels", v.pixels},
+          {"mismatches",
+           {{"model_rtl", v.rtl.mismatches + v.rtl.frame_mismatches},
+            {"model_systemc", v.systemc.mismatches + v.systemc.frame_mismatches}}},
+          {"cycles",
+           {{"frame", v.systemc.frame_cycles},
+            {"datapath_rtl", v.rtl.datapath_cycles},
+            {"datapath_systemc", v.systemc.datapath_cycles},
+            {"difference", v.cycle_difference()},
+            {"setup_per_triangle", v.systemc.setup_cycles},
+            {"rom_load", v.systemc.rom_load_cycles}}},
+          {"clock_ns", v.hardware.clock_ns()},
+          {"clock_source", v.hardware.technology.source},
+          {"ns_per_pixel", {{"datapath", v.datapath_ns()}, {"frame", v.frame_ns()}}},
+          {"budget_ns", v.options.budget_ns},
+          {"within_budget", v.within_budget()},
+          {"accuracy",
+           {{"max_lsb", a.total.largest},
+            {"rms_lsb", a.total.rms()},
+            {"psnr_db", std::isfinite(psnr) ? nlohmann::ordered_json(psnr) : nullptr},
+            {"over_half", a.total.share(a.total.over_half)},
+            {"over_one", a.total.share(a.total.over_one)},
+            {"over_two", a.total.share(a.total.over_two)}}},
+          {"accuracy_split",
+           {{"series", statistics_json(a.series)},
+            {"rounding", statistics_json(a.rounding)},
+            {"rom", statistics_json(a.rom)},
+            {"output", statistics_json(a.output)}}},
+          {"coefficient_overflows", v.coefficient_overflows},
+          {"seed", v.options.seed},
+          {"passed", v.passed()}};
 }
 
 }  // namespace phongpipe

@@ -33,7 +33,8 @@ double table_penalty(const std::vector<Point>& points, int base_bits, int addres
     const Point* base = point_at(points, base_bits, point.width);
     if (base != nullptr) return point.ns - base->ns;
   }
-  throw InputError(fmt::format("no width with both {} and {} address bits", base_bits, address_bits));
+  throw InputError(
+      fmt::format("no width with both {} and {} address bits", base_bits, address_bits));
 }
 
 }  // namespace

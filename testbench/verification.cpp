@@ -58,7 +58,7 @@ class Comparison {
     }
     account.first = first_;
     for (std::size_t i = 0; i < model_.framebuffer.size(); ++i) {
-      account.frame_mismatches += model_.framebuffer.color(i) != result.framebuffer.color(i);
+      account.frame_mismatches += model_.color(i) != result.framebuffer.color(i);
     }
     return account;
   }
@@ -91,10 +91,14 @@ ShadedPixel unpack(std::uint64_t packed) {
 
 // Accounts travel from the child that simulates to the parent as text.
 std::string to_text(const Account& a) {
-  json j = {{"mismatches", a.mismatches},     {"frame_mismatches", a.frame_mismatches},
-            {"frame_cycles", a.frame_cycles}, {"datapath_cycles", a.datapath_cycles},
-            {"setup_cycles", a.setup_cycles}, {"rom_load_cycles", a.rom_load_cycles},
-            {"busy", a.datapath_busy_cycles}, {"cycles_hash", a.cycles_hash},
+  json j = {{"mismatches", a.mismatches},
+            {"frame_mismatches", a.frame_mismatches},
+            {"frame_cycles", a.frame_cycles},
+            {"datapath_cycles", a.datapath_cycles},
+            {"setup_cycles", a.setup_cycles},
+            {"rom_load_cycles", a.rom_load_cycles},
+            {"busy", a.datapath_busy_cycles},
+            {"cycles_hash", a.cycles_hash},
             {"failure", a.failure}};
   if (a.first) {
     j["first"] = {{"place", a.first->place},       {"triangle", a.first->triangle},
@@ -132,8 +136,7 @@ void write_pictures(const Verification& v, const ModelFrame& model, const FrameS
   const auto file = [&](const char* what) {
     return v.options.pictures / fmt::format("{}-{}.png", name, what);
   };
-  write_png(file("result"),
-            picture_of(model.framebuffer.colors(), frame.width, frame.height, channels));
+  write_png(file("result"), picture_of(model.colors(), frame.width, frame.height, channels));
   write_png(file("exact"), v.accuracy.exact_picture);
   write_png(file("error"), v.accuracy.error_picture);
 }
@@ -183,8 +186,8 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
   const FrameSetup frame(scene, geometry, v.hardware.datapath, v.hardware.pipeline.depth_bits);
   v.plan = frame.plan;
   for (const Material& material : geometry.materials) {
-    v.rom_error = std::max(v.rom_error, ExponentRom::largest_error(frame.configuration,
-                                                                   material.shininess));
+    v.rom_error =
+        std::max(v.rom_error, ExponentRom::largest_error(frame.configuration, material.shininess));
   }
   v.hardware.clock_ns();  // fails before the long work where the card has no such clock
 
@@ -199,7 +202,7 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
   v.coefficient_overflows = model.coefficient_overflows;
   v.pixels = model.stream.size();
   for (std::size_t i = 0; i < model.framebuffer.size(); ++i) {
-    v.visible_pixels += model.framebuffer.place(i) != Framebuffer::kNoPixel;
+    v.visible_pixels += model.framebuffer.covered(i);
   }
 
   progress("simulating SystemC and RTL");
@@ -215,11 +218,11 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
         simulation.datapath = datapath.get();
       }
       Comparison comparison(model);
-      simulation.observe = [&comparison](const ShadedPixel& pixel, std::int64_t cycle) {
-        comparison.observe(pixel, cycle);
+      simulation.observe = [&comparison](const ShadedPixel* pixels, const std::int64_t* cycles,
+                                         std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) comparison.observe(pixels[i], cycles[i]);
       };
-      return to_text(
-          comparison.finish(simulate(frame, geometry, v.hardware.pipeline, simulation)));
+      return to_text(comparison.finish(simulate(frame, geometry, v.hardware.pipeline, simulation)));
     };
   };
   Child rtl(simulate_in_child(true));

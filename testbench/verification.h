@@ -1,5 +1,5 @@
-// One scene three ways: bit-accurate model, SystemC pipeline and Verilated RTL, pixel by pixel, with
-// accuracy against exact Phong and time against the budget.
+// One scene three ways: bit-accurate model, SystemC pipeline and Verilated RTL, pixel by pixel,
+// with accuracy against exact Phong and time against the budget.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ struct VerificationOptions {
   Detail detail = Detail::span;
   int stall_percent = 0;
   std::uint32_t seed = 1;
-  std::filesystem::path rtl_sources;     // empty: the installed RTL
-  std::filesystem::path pictures;        // folder; empty: none
+  std::filesystem::path rtl_sources;                 // empty: the installed RTL
+  std::filesystem::path pictures;                    // folder; empty: none
   std::function<void(const std::string&)> progress;  // told what is being done
 };
 
@@ -42,7 +42,7 @@ struct Account {
   std::int64_t setup_cycles = 0;
   std::int64_t rom_load_cycles = 0;
   std::int64_t datapath_busy_cycles = 0;  // of the RTL
-  std::uint64_t cycles_hash = 0;  // over the cycle of every pixel
+  std::uint64_t cycles_hash = 0;          // over the cycle of every pixel
   std::string failure;
 };
 
@@ -53,7 +53,7 @@ struct Verification {
   VerificationOptions options;
   std::vector<std::string> notes;
   std::size_t triangles = 0, triangles_set_up = 0;
-  std::uint64_t pixels = 0;          // shaded
+  std::uint64_t pixels = 0;  // shaded
   std::uint64_t visible_pixels = 0;
   std::size_t coefficient_overflows = 0;
   double rom_error = 0;  // largest of the materials' tables, share of full scale

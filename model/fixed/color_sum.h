@@ -11,7 +11,9 @@ namespace phongpipe {
 
 // `level` is ambient light plus the rounding half, in the format of the diffuse series: a series at
 // or below it is unlit (N·L ≤ 0), because ambient and half are folded into its T0.
-inline bool is_lit(std::int64_t diffuse, std::int64_t level) { return diffuse > level; }
+inline bool is_lit(std::int64_t diffuse, std::int64_t level) {
+  return diffuse > level;
+}
 
 // Cut to the fraction bits of the ROM words. Never negative, because level is not.
 inline std::int32_t clamped_diffuse(const DatapathConfiguration& configuration,

@@ -4,16 +4,17 @@
 
 namespace phongpipe {
 
-// Output: one channel of a pixel is an unsigned integer of kOutputBits; 1 LSB is 1/255 of full scale.
+// Output: one channel of a pixel is an unsigned integer of kOutputBits; 1 LSB is 1/255 of full
+// scale.
 constexpr int kOutputBits = 8;
 constexpr int kOutputMax = (1 << kOutputBits) - 1;
 
-// Integer guard bits of every series: a Taylor polynomial overshoots 1 when the peak lies inside the
-// triangle, by less than a factor of two while max |Nᵢ − C| / |C| < 1.86.
+// Integer guard bits of every series: a Taylor polynomial overshoots 1 when the peak lies inside
+// the triangle, by less than a factor of two while max |Nᵢ − C| / |C| < 1.86.
 constexpr int kGuardBits = 1;
 
-constexpr int kCoordinateBits = 12;                  // x and y, 0 … 4095
-constexpr int kLengthBits = kCoordinateBits + 1;     // pixels in a span, 1 … 4096
+constexpr int kCoordinateBits = 12;               // x and y, 0 … 4095
+constexpr int kLengthBits = kCoordinateBits + 1;  // pixels in a span, 1 … 4096
 
 // Clocks from the acceptance of a span to its first pixel at the output of pixel_datapath, and at
 // the same time the number of pixels the datapath holds.

@@ -10,7 +10,9 @@ namespace {
 std::int64_t floor_divide(std::int64_t a, std::int64_t b) {  // b > 0
   return a >= 0 ? a / b : -((-a + b - 1) / b);
 }
-std::int64_t ceil_divide(std::int64_t a, std::int64_t b) { return -floor_divide(-a, b); }
+std::int64_t ceil_divide(std::int64_t a, std::int64_t b) {
+  return -floor_divide(-a, b);
+}
 
 // Inside where a·x + b·y + c ≥ 0, in units of 1/256 pixel; the top-left rule is folded into c.
 struct Edge {

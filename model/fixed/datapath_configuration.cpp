@@ -9,8 +9,8 @@ namespace {
 
 void require_range(const char* key, int value, int low, int high, const char* reason) {
   if (value < low || value > high) {
-    throw InputError(
-        fmt::format("datapath.{} = {} is out of range: {} to {} ({})", key, value, low, high, reason));
+    throw InputError(fmt::format("datapath.{} = {} is out of range: {} to {} ({})", key, value, low,
+                                 high, reason));
   }
 }
 

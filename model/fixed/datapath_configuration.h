@@ -7,9 +7,10 @@
 
 namespace phongpipe {
 
-// Where T_i are rounded to the datapath's fraction. `triangle`: once, as the paper has it; the error
-// grows with the extent n of the triangle as 1 + 2n + 3n². `span`: setup keeps kSetupExtraBits more
-// and rounds the start of each span; the error grows with the length of the span as 1 + n + n(n−1)/2.
+// Where T_i are rounded to the datapath's fraction. `triangle`: once, as the paper has it; the
+// error grows with the extent n of the triangle as 1 + 2n + 3n². `span`: setup keeps
+// kSetupExtraBits more and rounds the start of each span; the error grows with the length of the
+// span as 1 + n + n(n−1)/2.
 enum class Anchor { triangle, span };
 constexpr int kSetupExtraBits = 20;
 
@@ -17,22 +18,24 @@ constexpr int kSetupExtraBits = 20;
 // rounding to nearest means for an address cut off below its LSB), or the interval's lower end.
 enum class IndexRounding { nearest, truncate };
 
-// What allows the specular term. `off`: always, the paper's form. `diffuse`: the sign of the diffuse
-// series. `series`: a series of N·L of its own, where the diffuse colour is 0 and cannot tell.
+// What allows the specular term. `off`: always, the paper's form. `diffuse`: the sign of the
+// diffuse series. `series`: a series of N·L of its own, where the diffuse colour is 0 and cannot
+// tell.
 enum class GateSource { off, diffuse, series };
 
 struct DatapathConfiguration {
-  int channels = 1;                   // 1 (grey) or 3
-  int diffuse_fraction_bits = 16;     // below one output LSB
-  int specular_fraction_bits = 12;    // below one ROM address
+  int channels = 1;                 // 1 (grey) or 3
+  int diffuse_fraction_bits = 16;   // below one output LSB
+  int specular_fraction_bits = 12;  // below one ROM address
   int rom_address_bits = 10;
-  int rom_data_bits = 8;              // one word is full scale / 2^rom_data_bits per unit
+  int rom_data_bits = 8;  // one word is full scale / 2^rom_data_bits per unit
   IndexRounding index_rounding = IndexRounding::nearest;
   GateSource gate = GateSource::diffuse;
   Anchor anchor = Anchor::span;
 
   // Two's complement: sign, guard, integer, fraction. Overflow wraps.
-  // Diffuse (and gate) series: s(1 + kGuardBits + kOutputBits).(diffuse_fraction_bits), in output LSB.
+  // Diffuse (and gate) series: s(1 + kGuardBits + kOutputBits).(diffuse_fraction_bits), in output
+  // LSB.
   int diffuse_width() const { return 1 + kGuardBits + kOutputBits + diffuse_fraction_bits; }
   // Specular series: integer part is the ROM address, so full scale is 2^rom_address_bits.
   int specular_width() const { return 1 + kGuardBits + rom_address_bits + specular_fraction_bits; }

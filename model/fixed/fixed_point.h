@@ -7,7 +7,8 @@
 
 namespace phongpipe {
 
-// Addition and multiplication modulo 2^64: registers wrap, and wrapping is defined for unsigned only.
+// Addition and multiplication modulo 2^64: registers wrap, and wrapping is defined for unsigned
+// only.
 inline std::int64_t wrap_add(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
@@ -21,7 +22,9 @@ inline std::int64_t wrap_to(std::int64_t value, int width) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << unused) >> unused;
 }
 
-inline bool fits(std::int64_t value, int width) { return wrap_to(value, width) == value; }
+inline bool fits(std::int64_t value, int width) {
+  return wrap_to(value, width) == value;
+}
 
 // Nearest multiple of 2^−fraction_bits, ties away from zero. Sets `overflow` (and returns 0) where
 // 63 bits do not hold it, or it is not a number.

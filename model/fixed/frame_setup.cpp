@@ -12,9 +12,9 @@ namespace {
 
 void require_simulated(const Scene& scene) {
   const auto refuse = [&scene](const char* what, const char* instead) {
-    throw InputError(scene.file, 0,
-                     fmt::format("{} not simulated yet; {}, or render with --method phong", what,
-                                 instead));
+    throw InputError(
+        scene.file, 0,
+        fmt::format("{} not simulated yet; {}, or render with --method phong", what, instead));
   };
   if (scene.depth_cue) {
     throw InputError(scene.file, 0, "depth cueing is not simulated yet; leave [depth_cue] out");
@@ -31,7 +31,9 @@ void require_simulated(const Scene& scene) {
   }
 }
 
-bool is_grey(const Color& color) { return color[0] == color[1] && color[1] == color[2]; }
+bool is_grey(const Color& color) {
+  return color[0] == color[1] && color[1] == color[2];
+}
 
 MaterialSetup set_up_material(const Scene& scene, const Material& material,
                               const DatapathConfiguration& configuration) {
@@ -63,10 +65,9 @@ bool is_grey(const Scene& scene, const Geometry& geometry) {
   return is_grey(scene.image.background) && is_grey(scene.shading.ambient_light) &&
          std::all_of(scene.lights.begin(), scene.lights.end(),
                      [](const Light& light) { return is_grey(light.color); }) &&
-         std::all_of(geometry.materials.begin(), geometry.materials.end(),
-                     [](const Material& m) {
-                       return is_grey(m.ambient) && is_grey(m.diffuse) && is_grey(m.specular);
-                     });
+         std::all_of(geometry.materials.begin(), geometry.materials.end(), [](const Material& m) {
+           return is_grey(m.ambient) && is_grey(m.diffuse) && is_grey(m.specular);
+         });
 }
 
 DatapathConfiguration suit_scene(DatapathConfiguration configuration, const Scene& scene,

@@ -14,7 +14,7 @@
 namespace phongpipe {
 
 struct MaterialSetup {
-  LightInput<double> light;           // scales: output LSB for diffuse and gate, addresses for specular
+  LightInput<double> light;  // scales: output LSB for diffuse and gate, addresses for specular
   std::array<std::int64_t, 3> level;  // ambient plus the rounding half, in the diffuse format
   std::vector<ExponentRom> roms;      // one a channel
 };
@@ -39,8 +39,8 @@ struct FrameSetup {
 // Whether every colour of the scene is grey, so that one channel does.
 bool is_grey(const Scene& scene, const Geometry& geometry);
 
-// Sets the gate's source by what the materials in use need: a series of its own where a material has
-// a highlight and no diffuse colour. A gate that is off stays off.
+// Sets the gate's source by what the materials in use need: a series of its own where a material
+// has a highlight and no diffuse colour. A gate that is off stays off.
 DatapathConfiguration suit_scene(DatapathConfiguration configuration, const Scene& scene,
                                  const Geometry& geometry);
 

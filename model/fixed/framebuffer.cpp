@@ -21,10 +21,4 @@ Framebuffer::Framebuffer(const FrameSetup& frame)
   if (!cells_) throw std::bad_alloc();
 }
 
-std::vector<std::uint32_t> Framebuffer::colors() const {
-  std::vector<std::uint32_t> colors(size());
-  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = color(i);
-  return colors;
-}
-
 }  // namespace phongpipe

@@ -29,7 +29,9 @@ class FrontEnd {
   }
 
   const SpanWalker& span_walker() const { return span_walker_; }
-  std::uint32_t triangles() const { return static_cast<std::uint32_t>(geometry_->triangles.size()); }
+  std::uint32_t triangles() const {
+    return static_cast<std::uint32_t>(geometry_->triangles.size());
+  }
 
  private:
   const FrameSetup* frame_;

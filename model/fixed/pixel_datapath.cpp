@@ -12,12 +12,14 @@ namespace {
 
 #if defined(__x86_64__)
 struct Avx2Gather {
-  static inline __attribute__((target("avx2"))) void read(
-      const std::int32_t* words, const Lanes<std::int32_t, 8>& address, Lanes<std::int32_t, 8>& result) {
+  static inline __attribute__((target("avx2"))) void read(const std::int32_t* words,
+                                                          const Lanes<std::int32_t, 8>& address,
+                                                          Lanes<std::int32_t, 8>& result) {
     result = (Lanes<std::int32_t, 8>)_mm256_i32gather_epi32(words, (__m256i)address, 4);
   }
-  static inline __attribute__((target("avx2"))) void read(
-      const std::int32_t* words, const Lanes<std::int64_t, 8>& address, Lanes<std::int64_t, 8>& result) {
+  static inline __attribute__((target("avx2"))) void read(const std::int32_t* words,
+                                                          const Lanes<std::int64_t, 8>& address,
+                                                          Lanes<std::int64_t, 8>& result) {
     LoopGather::read(words, address, result);
   }
 };
@@ -48,10 +50,12 @@ ShadeFunction select_instructions(Evaluation evaluation) {
 template <typename Word, int kChannels>
 ShadeFunction select_gate(GateSource gate, Evaluation evaluation) {
   switch (gate) {
-    case GateSource::off: return select_instructions<Word, kChannels, GateSource::off>(evaluation);
+    case GateSource::off:
+      return select_instructions<Word, kChannels, GateSource::off>(evaluation);
     case GateSource::series:
       return select_instructions<Word, kChannels, GateSource::series>(evaluation);
-    case GateSource::diffuse: break;
+    case GateSource::diffuse:
+      break;
   }
   return select_instructions<Word, kChannels, GateSource::diffuse>(evaluation);
 }

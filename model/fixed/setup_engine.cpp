@@ -15,8 +15,7 @@ FixedQuadratic round_coefficients(const Quadratic<double>& t, int fraction_bits,
 SetupEngine::SetupEngine(const FrameSetup& frame, const Geometry& geometry)
     : frame_(&frame), geometry_(&geometry) {}
 
-TriangleCoefficients<double> SetupEngine::coefficients(std::uint32_t triangle, int x,
-                                                       int y) const {
+TriangleCoefficients<double> SetupEngine::coefficients(std::uint32_t triangle, int x, int y) const {
   const ScreenTriangle& source = geometry_->triangles[triangle];
   TriangleInput<double> input;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -7,10 +7,10 @@
 namespace phongpipe {
 
 // Coefficients about the centre of pixel (x, y). Q-formats: diffuse and gate have
-// diffuse_fraction_bits below one output LSB, specular specular_fraction_bits below one ROM address,
-// each kSetupExtraBits more with Anchor::span; depth kDepthFraction. The level (ambient and the
-// rounding half) is folded into the T0 of diffuse. Rounding: to nearest. Overflow of 63 bits is
-// reported.
+// diffuse_fraction_bits below one output LSB, specular specular_fraction_bits below one ROM
+// address, each kSetupExtraBits more with Anchor::span; depth kDepthFraction. The level (ambient
+// and the rounding half) is folded into the T0 of diffuse. Rounding: to nearest. Overflow of 63
+// bits is reported.
 struct TriangleSetup {
   int x = 0, y = 0;  // the expansion point's pixel
   std::uint32_t triangle = 0;

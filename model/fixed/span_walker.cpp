@@ -8,13 +8,11 @@ namespace {
 // Whether every value v + d1 i + d2 i(i−1)/2, 0 ≤ i < length, lies within ±limit. Computed in
 // double, which is exact enough for a bound and does not wrap.
 bool within(double v, double d1, double d2, int length, double limit) {
-  const auto value = [&](double i) { return v + i * (d1 + 0.5 * d2 * (i - 1)); };
-  if (std::fabs(v) > limit || std::fabs(value(length - 1)) > limit) return false;
-  if (d2 == 0) return true;
+  const auto fits = [&](double i) { return std::fabs(v + i * (d1 + 0.5 * d2 * (i - 1))) <= limit; };
+  if (!fits(0) || !fits(length - 1)) return false;
   const double vertex = 0.5 - d1 / d2;
-  if (!(vertex > 0 && vertex < length - 1)) return true;
-  return std::fabs(value(std::floor(vertex))) <= limit &&
-         std::fabs(value(std::ceil(vertex))) <= limit;
+  if (!(vertex > 0 && vertex < length - 1)) return true;  // nor for d2 = 0
+  return fits(std::floor(vertex)) && fits(std::ceil(vertex));
 }
 
 }  // namespace
@@ -22,43 +20,54 @@ bool within(double v, double d1, double d2, int length, double limit) {
 SpanWalker::SpanWalker(const FrameSetup& frame)
     : configuration_(frame.configuration),
       dropped_bits_(setup_fraction_bits(frame.configuration, 0)),
-      unit_(std::ldexp(1.0, dropped_bits_)),
       diffuse_limit_(std::ldexp(1.0, configuration_.diffuse_width() - 1) - 1),
       specular_limit_(std::ldexp(1.0, configuration_.specular_width() - 1) - 1) {}
 
-SeriesStart SpanWalker::start_series(const FixedQuadratic& t, const TriangleSetup& setup,
-                                     const RowSpan& row, double limit, bool& overflow) const {
-  const int x = row.x - setup.x, y = row.y - setup.y;
-  const SeriesStart start = {round_off(t.value(x, y), dropped_bits_),
-                             round_off(t.difference(x, y), dropped_bits_),
-                             round_off(wrap_mul(2, t.t5), dropped_bits_)};
-  const auto real = [](std::int64_t coefficient) { return static_cast<double>(coefficient); };
+SeriesStart SpanWalker::start_series(const FixedQuadratic& t, int x, int y) const {
+  return {round_off(t.value(x, y), dropped_bits_), round_off(t.difference(x, y), dropped_bits_),
+          round_off(wrap_mul(2, t.t5), dropped_bits_)};
+}
+
+bool SpanWalker::series_fits(const FixedQuadratic& t, int x, int y, int length,
+                             double limit) const {
+  const auto real = [](std::int64_t value) { return static_cast<double>(value); };
+  // A start that wrapped beyond 64 bits can not be told from one that fits, but by its real value.
   const double v = (real(t.t5) * x + real(t.t4) * y + real(t.t2)) * x +
                    (real(t.t3) * y + real(t.t1)) * y + real(t.t0);
   const double d1 = real(t.t5) * (2 * x + 1) + real(t.t4) * y + real(t.t2);
-  // The last representable value, less what rounding the start can move a value by.
-  const double drift = 1 + row.length + 0.5 * row.length * (row.length - 1.0);
-  if (!within(v, d1, 2 * real(t.t5), row.length, (limit - drift) * unit_)) overflow = true;
-  return start;
+  constexpr double kLargest = 0x1p62;
+  if (std::fabs(v) > kLargest || (length > 1 && std::fabs(d1) > kLargest)) return false;
+  const SeriesStart start = start_series(t, x, y);
+  return within(real(start.v), real(start.d1), real(start.d2), length, limit);
 }
 
-Span SpanWalker::start(const TriangleSetup& setup, const RowSpan& row, bool& overflow) const {
+Span SpanWalker::start(const TriangleSetup& setup, const RowSpan& row) const {
+  const int x = row.x - setup.x, y = row.y - setup.y;
   Span span;
   span.row = row;
   span.triangle = setup.triangle;
   span.material = setup.material;
   for (std::size_t c = 0; c < static_cast<std::size_t>(configuration_.channels); ++c) {
-    span.diffuse[c] = start_series(setup.diffuse[c], setup, row, diffuse_limit_, overflow);
+    span.diffuse[c] = start_series(setup.diffuse[c], x, y);
   }
-  if (configuration_.gate == GateSource::series) {
-    span.gate = start_series(setup.gate, setup, row, diffuse_limit_, overflow);
-  }
-  span.specular =
-      start_series(setup.specular, setup, row, specular_limit_, overflow);
-  span.depth = wrap_add(setup.depth, wrap_add(wrap_mul(setup.depth_x, row.x - setup.x),
-                                              wrap_mul(setup.depth_y, row.y - setup.y)));
+  if (configuration_.gate == GateSource::series) span.gate = start_series(setup.gate, x, y);
+  span.specular = start_series(setup.specular, x, y);
+  span.depth =
+      wrap_add(setup.depth, wrap_add(wrap_mul(setup.depth_x, x), wrap_mul(setup.depth_y, y)));
   span.depth_step = setup.depth_x;
   return span;
+}
+
+bool SpanWalker::fits(const TriangleSetup& setup, const RowSpan& row) const {
+  const int x = row.x - setup.x, y = row.y - setup.y;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(configuration_.channels); ++c) {
+    if (!series_fits(setup.diffuse[c], x, y, row.length, diffuse_limit_)) return false;
+  }
+  if (configuration_.gate == GateSource::series &&
+      !series_fits(setup.gate, x, y, row.length, diffuse_limit_)) {
+    return false;
+  }
+  return series_fits(setup.specular, x, y, row.length, specular_limit_);
 }
 
 }  // namespace phongpipe

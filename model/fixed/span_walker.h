@@ -11,17 +11,19 @@ class SpanWalker {
   explicit SpanWalker(const FrameSetup& frame);
 
   // v, Δ and ΔΔ at the first pixel of the row, evaluated exactly from the rounded T_i and, with
-  // Anchor::span, rounded to the datapath's fraction. Sets `overflow` where a value of some pixel of
-  // the row does not fit its register, so that the datapath would wrap to a wrong colour.
-  Span start(const TriangleSetup& setup, const RowSpan& row, bool& overflow) const;
+  // Anchor::span, rounded to the datapath's fraction.
+  Span start(const TriangleSetup& setup, const RowSpan& row) const;
+
+  // False where the value of some pixel of the row does not fit its register, so that the datapath
+  // would wrap to a wrong colour.
+  bool fits(const TriangleSetup& setup, const RowSpan& row) const;
 
  private:
-  SeriesStart start_series(const FixedQuadratic& t, const TriangleSetup& setup, const RowSpan& row,
-                           double limit, bool& overflow) const;
+  SeriesStart start_series(const FixedQuadratic& t, int x, int y) const;
+  bool series_fits(const FixedQuadratic& t, int x, int y, int length, double limit) const;
 
   DatapathConfiguration configuration_;
-  int dropped_bits_;  // between setup and datapath
-  double unit_;       // of the datapath, in units of the setup
+  int dropped_bits_;                       // between setup and datapath
   double diffuse_limit_, specular_limit_;  // largest values of the registers
 };
 

@@ -20,20 +20,32 @@ OperationCounts operator-(const OperationCounts& a, const OperationCounts& b) {
 }
 
 bool operator==(const OperationCounts& a, const OperationCounts& b) {
-  return a.add == b.add && a.multiply == b.multiply && a.rsqrt == b.rsqrt &&
-         a.divide == b.divide && a.sqrt == b.sqrt && a.read == b.read;
+  return a.add == b.add && a.multiply == b.multiply && a.rsqrt == b.rsqrt && a.divide == b.divide &&
+         a.sqrt == b.sqrt && a.read == b.read;
 }
 
 OperationCounts Dataflow::counts() const {
   OperationCounts counts;
   for (const Node& node : nodes) {
     switch (node.operation) {
-      case Operation::add: ++counts.add; break;
-      case Operation::multiply: ++counts.multiply; break;
-      case Operation::rsqrt: ++counts.rsqrt; break;
-      case Operation::divide: ++counts.divide; break;
-      case Operation::sqrt: ++counts.sqrt; break;
-      case Operation::read: ++counts.read; break;
+      case Operation::add:
+        ++counts.add;
+        break;
+      case Operation::multiply:
+        ++counts.multiply;
+        break;
+      case Operation::rsqrt:
+        ++counts.rsqrt;
+        break;
+      case Operation::divide:
+        ++counts.divide;
+        break;
+      case Operation::sqrt:
+        ++counts.sqrt;
+        break;
+      case Operation::read:
+        ++counts.read;
+        break;
     }
   }
   return counts;
@@ -44,7 +56,9 @@ Recording::Recording() {
   current = this;
 }
 
-Recording::~Recording() { current = nullptr; }
+Recording::~Recording() {
+  current = nullptr;
+}
 
 Recorded::Recorded(Operation operation, int left, int right) {
   if (current == nullptr) throw std::logic_error("Recorded used outside a Recording");

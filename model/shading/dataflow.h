@@ -19,7 +19,9 @@ struct OperationCounts {
 OperationCounts operator+(const OperationCounts& a, const OperationCounts& b);
 OperationCounts operator-(const OperationCounts& a, const OperationCounts& b);
 bool operator==(const OperationCounts& a, const OperationCounts& b);
-inline bool operator!=(const OperationCounts& a, const OperationCounts& b) { return !(a == b); }
+inline bool operator!=(const OperationCounts& a, const OperationCounts& b) {
+  return !(a == b);
+}
 
 // Nodes in the order of execution; an operand is the index of an earlier node or kInput.
 struct Dataflow {

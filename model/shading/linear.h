@@ -1,5 +1,5 @@
-// What is interpolated linearly in screen space: q(x, y) = A x + B y + C, x and y in pixels from the
-// expansion point.
+// What is interpolated linearly in screen space: q(x, y) = A x + B y + C, x and y in pixels from
+// the expansion point.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@ struct Linear {
 };
 
 // The corners of a triangle, in pixels from the origin, and what turns values at the corners into
-// Linear. The determinant's reciprocal is taken as rsqrt(det²)², the setup engine having no divider.
+// Linear. The determinant's reciprocal is taken as rsqrt(det²)², the setup engine having no
+// divider.
 template <typename T>
 class Interpolator {
  public:

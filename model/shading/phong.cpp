@@ -24,7 +24,9 @@ double falloff(const Light& light, const Vec3& unit_to_light, double distance) {
   return attenuation * std::pow(cosine, light.spot_exponent);
 }
 
-Vec3 at(const Linear<Vec3>& q, double x, double y) { return q.a * x + q.b * y + q.c; }
+Vec3 at(const Linear<Vec3>& q, double x, double y) {
+  return q.a * x + q.b * y + q.c;
+}
 
 }  // namespace
 

@@ -10,9 +10,10 @@ namespace phongpipe {
 
 // What one light does at one surface point.
 struct Illumination {
-  Vec3 light = Vec3::Zero();      // unit, surface → light
-  Vec3 highlight = Vec3::Zero();  // unit halfway vector, or the eye vector where the highlight is R·V
-  Color color = Color::Zero();    // after attenuation and spot factor
+  Vec3 light = Vec3::Zero();  // unit, surface → light
+  Vec3 highlight =
+      Vec3::Zero();  // unit halfway vector, or the eye vector where the highlight is R·V
+  Color color = Color::Zero();  // after attenuation and spot factor
 };
 
 // `eye` is unit, `to_light` of true length.
@@ -25,8 +26,8 @@ Illumination illuminate(const Scene& scene, const Light& light, const Vec3& eye,
 Color reflect(const Scene& scene, const Material& material, const Vec3& normal,
               const std::vector<Illumination>& lights);
 
-// One triangle under exact Phong shading: normal, eye and light vectors are interpolated linearly in
-// screen space between the vertices and normalised at each pixel centre.
+// One triangle under exact Phong shading: normal, eye and light vectors are interpolated linearly
+// in screen space between the vertices and normalised at each pixel centre.
 class PhongTriangle {
  public:
   PhongTriangle(const Scene& scene, const Material& material, const ScreenTriangle& triangle);

@@ -7,10 +7,17 @@
 
 namespace phongpipe {
 
-// Unqualified, so that the overloads of other scalars are found; a change of exponent costs no unit.
-inline double rsqrt(double x) { return 1 / std::sqrt(x); }
-inline double half(double x) { return 0.5 * x; }
-inline double twice(double x) { return 2 * x; }
+// Unqualified, so that the overloads of other scalars are found; a change of exponent costs no
+// unit.
+inline double rsqrt(double x) {
+  return 1 / std::sqrt(x);
+}
+inline double half(double x) {
+  return 0.5 * x;
+}
+inline double twice(double x) {
+  return 2 * x;
+}
 
 template <typename T>
 using Vector3 = Eigen::Matrix<T, 3, 1>;

@@ -1,6 +1,6 @@
-// Bishop & Weimer's second-degree Taylor series of s(x, y) = N·M / (|N||M|) about the origin, with N
-// and M linear in x and y. The paper prints some coefficients wrongly; these are the corrected ones,
-// in the scaled form that divides by |C| (and |F|) first.
+// Bishop & Weimer's second-degree Taylor series of s(x, y) = N·M / (|N||M|) about the origin, with
+// N and M linear in x and y. The paper prints some coefficients wrongly; these are the corrected
+// ones, in the scaled form that divides by |C| (and |F|) first.
 #pragma once
 
 #include "model/shading/linear.h"
@@ -69,9 +69,9 @@ class NormalExpansion {
 
  private:
   Linear<Vector3<T>> normal_;
-  T root_;         // 1/|C|
-  T g_, h_;        // A·C/|C|², B·C/|C|²
-  T q5_, q4_, q3_; // (g² − |A|²/|C|²)/2, gh − A·B/|C|², (h² − |B|²/|C|²)/2
+  T root_;          // 1/|C|
+  T g_, h_;         // A·C/|C|², B·C/|C|²
+  T q5_, q4_, q3_;  // (g² − |A|²/|C|²)/2, gh − A·B/|C|², (h² − |B|²/|C|²)/2
 };
 
 }  // namespace phongpipe

@@ -28,8 +28,10 @@ class Framebuffer : public sc_core::sc_module {
     if (busy_ > 0 || pixels_.empty()) return;
     const DepthPixel& pixel = pixels_.front();
     // A wrong place must not write outside the image; the comparison of streams will tell it.
-    const bool inside = pixel.pixel.x < memory_.width() && pixel.pixel.y < memory_.height();
-    const bool written = inside && memory_.write(pixel.pixel, pixel.depth, place_);
+    const bool inside =
+        pixel.pixel.x < context_.frame.width && pixel.pixel.y < context_.frame.height;
+    const bool written =
+        inside && memory_.write(pixel.pixel.x, pixel.pixel.y, pixel.depth, pixel.pixel.color);
     busy_ = context_.framebuffer_cycles(written, place_++);
     context_.result.frame_cycles = cycle + busy_;
     pixels_.pop();

@@ -32,8 +32,7 @@ class SpanWalker : public sc_core::sc_module {
     }
     if (cycles_left_ > 0) --cycles_left_;
     if (cycles_left_ > 0 || spans_.full()) return;
-    bool overflow = false;  // the model's account counts it
-    spans_.push(context_.front_end.span_walker().start(work_->setup, work_->rows[row_], overflow));
+    spans_.push(context_.front_end.span_walker().start(work_->setup, work_->rows[row_]));
     ++written_;
     cycles_left_ = context_.configuration.walker_row_cycles;
     if (++row_ == work_->rows.size()) work_ = nullptr;

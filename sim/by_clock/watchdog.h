@@ -1,5 +1,5 @@
-// Stops the simulation when all is done, and when nothing moves any more: then it reports what every
-// module is at.
+// Stops the simulation when all is done, and when nothing moves any more: then it reports what
+// every module is at.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,8 +23,8 @@ struct Modules {
 
 class Watchdog : public sc_core::sc_module {
  public:
-  Watchdog(const sc_core::sc_module_name& name, FrameContext& context, const sc_core::sc_time& period,
-           const Modules& modules)
+  Watchdog(const sc_core::sc_module_name& name, FrameContext& context,
+           const sc_core::sc_time& period, const Modules& modules)
       : sc_core::sc_module(name), context_(context), period_(period), modules_(modules) {
     SC_THREAD(run);
   }
@@ -59,7 +59,8 @@ class Watchdog : public sc_core::sc_module {
   std::string report() const {
     const Modules& m = modules_;
     return fmt::format(
-        "nothing has moved for {} cycles: setup_engine {}, triangle queue {} of {}, span_walker {}, "
+        "nothing has moved for {} cycles: setup_engine {}, triangle queue {} of {}, span_walker "
+        "{}, "
         "span queue {} of {}, pixel_datapath {} pixels in flight, pixel queue {} of {}, "
         "framebuffer {}",
         context_.options.watchdog_cycles, m.setup_engine.done() ? "done" : "waiting",

@@ -12,7 +12,10 @@ void ClockedPixelDatapath::run() {
     const bool visible = more && spans_.front_seen_from() <= cycle;
     const DatapathDriver::Outcome outcome =
         driver_.clock(visible ? &spans_.front() : nullptr, timing_.place_free_from() <= cycle);
-    if (outcome.span_taken) in_flight_.push_back(spans_.pop(cycle));
+    if (outcome.span_taken) {
+      in_flight_.push_back(spans_.front());
+      spans_.pop(cycle);
+    }
     if (outcome.pixel_taken) deliver(outcome.pixel, cycle);
     if (outcome.loading) ++context_.result.rom_load_cycles;
     if (outcome.span_taken || outcome.pixel_taken || outcome.loading ||

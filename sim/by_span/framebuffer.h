@@ -12,9 +12,18 @@ class Framebuffer : public sc_core::sc_module {
 
   // The cycles the next pixel of the stream takes.
   Cycle take(const Span& span, int i, const ShadedPixel& pixel) {
-    const bool written = memory_.write(
-        pixel, phongpipe::Framebuffer::depth(context_.frame, span, i), place_);
+    const std::uint32_t depth = phongpipe::Framebuffer::depth(context_.frame, span, i);
+    const bool written = memory_.write(pixel.x, pixel.y, depth, pixel.color);
     return context_.framebuffer_cycles(written, place_++);
+  }
+  // The same for each pixel of a span.
+  void take(const Span& span, const std::uint32_t* colors, Cycle* cycles) {
+    const auto length = static_cast<std::size_t>(span.row.length);
+    written_.resize(std::max(written_.size(), length));
+    memory_.write_span(context_.frame, span, colors, written_.data());
+    for (std::size_t i = 0; i < length; ++i) {
+      cycles[i] = context_.framebuffer_cycles(written_[i] != 0, place_++);
+    }
   }
 
   phongpipe::Framebuffer take_memory() { return std::move(memory_); }
@@ -23,6 +32,7 @@ class Framebuffer : public sc_core::sc_module {
   FrameContext& context_;
   phongpipe::Framebuffer memory_;
   std::uint32_t place_ = 0;
+  std::vector<std::uint8_t> written_;
 };
 
 }  // namespace phongpipe::by_span

@@ -12,23 +12,28 @@ Cycle PixelDatapath::load_material(std::uint32_t material, Cycle asked) {
 
 void PixelDatapath::run() {
   std::vector<std::uint32_t> colors;
+  std::vector<Cycle> cycles;
+  std::vector<ShadedPixel> pixels;
   while (spans_.wait_for_item()) {
     const Span& span = spans_.front();
     const RowSpan row = span.row;
     Cycle asked = spans_.front_seen_from();
     if (span.material != loaded_) asked = load_material(span.material, asked);
-    colors.resize(std::max(colors.size(), phongpipe::PixelDatapath::padded(row.length)));
-    values_.shade(span, colors.data());
-    Cycle taken = 0;
-    for (int i = 0; i < row.length; ++i) {
-      const ShadedPixel pixel = {static_cast<std::uint16_t>(row.x + i),
-                                 static_cast<std::uint16_t>(row.y),
-                                 colors[static_cast<std::size_t>(i)]};
-      timing_.next(asked, framebuffer_.take(span, i, pixel));
-      if (i == 0) taken = timing_.in();
-      context_.record(pixel, timing_.out());
+    if (colors.size() < phongpipe::PixelDatapath::padded(row.length)) {
+      colors.resize(phongpipe::PixelDatapath::padded(row.length));
+      cycles.resize(colors.size());
+      pixels.resize(colors.size());
     }
+    values_.shade(span, colors.data());
+    framebuffer_.take(span, colors.data(), cycles.data());
+    const Cycle taken = timing_.next(asked, static_cast<std::size_t>(row.length), cycles.data());
     spans_.pop(taken);
+    for (int i = 0; i < row.length; ++i) {
+      pixels[static_cast<std::size_t>(i)] = {static_cast<std::uint16_t>(row.x + i),
+                                             static_cast<std::uint16_t>(row.y),
+                                             colors[static_cast<std::size_t>(i)]};
+    }
+    context_.record(pixels.data(), cycles.data(), static_cast<std::size_t>(row.length));
   }
   context_.result.frame_cycles = timing_.end();
   wait(static_cast<double>(timing_.end()), sc_core::SC_NS);  // the kernel's clock catches up

@@ -20,12 +20,12 @@ class SpanWalker : public sc_core::sc_module {
     Cycle free_from = 0;
     while (triangles_.wait_for_item()) {
       const Cycle taken = std::max(triangles_.front_seen_from(), free_from);
-      const WorkHandle work = triangles_.pop(taken);
+      const WorkHandle work = triangles_.front();
+      triangles_.pop(taken);
       Cycle earliest = taken + configuration.walker_triangle_cycles;
-      bool overflow = false;  // the model's account counts it
       for (const RowSpan& row : work->rows) {
-        const Span span = context_.front_end.span_walker().start(work->setup, row, overflow);
-        const Cycle written = spans_.write(span, earliest);
+        const Cycle written =
+            spans_.write(context_.front_end.span_walker().start(work->setup, row), earliest);
         earliest = written + configuration.walker_row_cycles;
         free_from = written + 1;
       }

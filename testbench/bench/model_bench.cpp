@@ -12,6 +12,7 @@ void count_pixels(benchmark::State& state) {
 }
 
 void phong_in_double(benchmark::State& state) {
+  const std::vector<Span> spans = pawn().spans();
   const PawnFrame& frame = pawn();
   std::vector<PhongTriangle> triangles;
   for (const ScreenTriangle& triangle : frame.geometry.triangles) {
@@ -19,7 +20,7 @@ void phong_in_double(benchmark::State& state) {
   }
   std::vector<Color> colors(4096);
   for (auto _ : state) {
-    for (const Span& span : frame.spans) {
+    for (const Span& span : spans) {
       triangles[span.triangle].shade(span.row.x, span.row.y, span.row.length, colors.data());
       benchmark::DoNotOptimize(colors.data());
       benchmark::ClobberMemory();
@@ -29,11 +30,12 @@ void phong_in_double(benchmark::State& state) {
 }
 
 void model(benchmark::State& state, Evaluation evaluation) {
+  const std::vector<Span> spans = pawn().spans();
   PixelDatapath datapath(pawn().frame.configuration, evaluation);
   datapath.load_material(pawn().material());
   std::vector<std::uint32_t> colors(4096 + PixelDatapath::kLanes);
   for (auto _ : state) {
-    for (const Span& span : pawn().spans) {
+    for (const Span& span : spans) {
       datapath.shade(span, colors.data());
       benchmark::DoNotOptimize(colors.data());
       benchmark::ClobberMemory();

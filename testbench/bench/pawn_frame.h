@@ -15,7 +15,6 @@ struct PawnFrame {
   Geometry geometry;
   Hardware hardware;
   FrameSetup frame;
-  std::vector<Span> spans;
   std::int64_t pixels = 0;
 
   explicit PawnFrame(int size = 2048)
@@ -23,18 +22,26 @@ struct PawnFrame {
         geometry(make_geometry(scene)),
         hardware(suited(scene, geometry)),
         frame(scene, geometry, hardware.datapath, hardware.pipeline.depth_bits) {
+    for_each_span([this](const Span& span) { pixels += span.row.length; });
+  }
+
+  template <typename Visit>
+  void for_each_span(Visit visit) const {
     const FrontEnd front_end(frame, geometry);
     TriangleWork work;
-    bool overflow = false;
     for (std::uint32_t triangle = 0; triangle < front_end.triangles(); ++triangle) {
       if (!front_end.set_up(triangle, work)) continue;
       for (const RowSpan& row : work.rows) {
-        spans.push_back(front_end.span_walker().start(work.setup, row, overflow));
-        pixels += row.length;
+        visit(front_end.span_walker().start(work.setup, row));
       }
     }
   }
 
+  std::vector<Span> spans() const {
+    std::vector<Span> result;
+    for_each_span([&result](const Span& span) { result.push_back(span); });
+    return result;
+  }
   const MaterialSetup& material() const { return frame.materials.front(); }
 
  private:

@@ -40,12 +40,14 @@ void HardwareOptions::add_to(CLI::App& command) {
                   "key=value: change one setting of the hardware; may be given again")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command.footer(command.get_footer() + "\nSettings for --set and hardware files, with defaults:\n" +
-                 list_settings());
+  command.footer(command.get_footer() +
+                 "\nSettings for --set and hardware files, with defaults:\n" + list_settings());
 }
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+  clear();
+}
 
 void Progress::operator()(const std::string& what) {
   if (!terminal_) return;
@@ -59,6 +61,8 @@ void Progress::clear() {
   shown_ = false;
 }
 
-bool color_wanted() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
+bool color_wanted() {
+  return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
+}
 
 }  // namespace phongpipe

@@ -30,20 +30,25 @@ struct Options {
   std::optional<Arithmetic> arithmetic;
 };
 
-bool is_pfm(const fs::path& file) { return file.extension() == ".pfm"; }
+bool is_pfm(const fs::path& file) {
+  return file.extension() == ".pfm";
+}
 
 int render(const Options& options) {
   const Arithmetic arithmetic = options.arithmetic.value_or(
       options.method == Method::phong ? Arithmetic::real : Arithmetic::fixed);
   if (options.method == Method::phong && arithmetic == Arithmetic::fixed) {
-    throw InputError("exact Phong has no fixed-point form; use --arithmetic real, or --method taylor");
+    throw InputError(
+        "exact Phong has no fixed-point form; use --arithmetic real, or --method taylor");
   }
   if (options.output.empty() && options.triangles.empty()) {
-    throw InputError("nothing to write: give -o FILE.png, -o FILE.pfm or --dump-triangles FILE.csv");
+    throw InputError(
+        "nothing to write: give -o FILE.png, -o FILE.pfm or --dump-triangles FILE.csv");
   }
   const std::string extension = options.output.extension().string();
   if (!options.output.empty() && extension != ".png" && extension != ".pfm") {
-    throw InputError(fmt::format("{}: pictures are written as .png or .pfm", options.output.string()));
+    throw InputError(
+        fmt::format("{}: pictures are written as .png or .pfm", options.output.string()));
   }
   Progress progress;
   progress("reading the scene");
@@ -67,7 +72,7 @@ int render(const Options& options) {
       fmt::print(stderr, "warning: {} triangles have values that do not fit their registers\n",
                  model.coefficient_overflows);
     }
-    const std::vector<std::uint32_t> colors = model.framebuffer.colors();
+    const std::vector<std::uint32_t> colors = model.colors();
     if (is_pfm(options.output)) {
       write_pfm(options.output, in_lsb(colors, hardware.datapath.channels), width, height);
     } else {
@@ -85,8 +90,7 @@ int render(const Options& options) {
   if (is_pfm(options.output)) {
     write_pfm(options.output, colors, width, height);
   } else {
-    write_png(options.output,
-              picture_of(colors, width, height, is_grey(scene, geometry) ? 1 : 3));
+    write_png(options.output, picture_of(colors, width, height, is_grey(scene, geometry) ? 1 : 3));
   }
   return 0;
 }
@@ -96,7 +100,9 @@ int render(const Options& options) {
 void add_render(CLI::App& application, Run& run) {
   auto options = std::make_shared<Options>();
   CLI::App* command = application.add_subcommand("render", "Render one picture by one method");
-  command->add_option("scene", options->scene, "Scene file, or name of a shipped scene")->required()->type_name("SCENE");
+  command->add_option("scene", options->scene, "Scene file, or name of a shipped scene")
+      ->required()
+      ->type_name("SCENE");
   command->add_option("-o,--output", options->output, "Picture: .png, or .pfm for floats in LSB")
       ->type_name("FILE");
   const std::map<std::string, Method> methods = {{"phong", Method::phong},
@@ -111,8 +117,9 @@ void add_render(CLI::App& application, Run& run) {
                    "real (double precision) or fixed (the hardware's bits)")
       ->transform(CLI::CheckedTransformer(arithmetics))
       ->default_str("fixed for taylor, real for phong");
-  command->add_option("--dump-triangles", options->triangles,
-                      "Write the triangles as the setup engine receives them")
+  command
+      ->add_option("--dump-triangles", options->triangles,
+                   "Write the triangles as the setup engine receives them")
       ->type_name("FILE.csv");
   command->footer("Example: phongpipe render scene.toml --method phong -o exact.pfm\n");
   options->hardware.add_to(*command);

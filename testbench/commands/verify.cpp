@@ -29,7 +29,7 @@ int verify_scenes(Options options) {
     };
     const Verification verification = verify(find_scene(scene), hardware, options.verification);
     progress.clear();
-    fmt::print("{}", report_text(verification, color_wanted()));
+    if (options.json != "-") fmt::print("{}", report_text(verification, color_wanted()));
     std::fflush(stdout);
     results.push_back(report_json(verification));
     passed = passed && verification.passed();
@@ -51,14 +51,18 @@ void add_verify(CLI::App& application, Run& run) {
   auto options = std::make_shared<Options>();
   CLI::App* command = application.add_subcommand(
       "verify", "Compute every pixel three ways, compare them, and check the time budget");
-  command->add_option("scenes", options->scenes, "Scene files, or names of shipped scenes")->required()->type_name("SCENE");
+  command->add_option("scenes", options->scenes, "Scene files, or names of shipped scenes")
+      ->required()
+      ->type_name("SCENE");
   VerificationOptions& v = options->verification;
   command->add_option("--budget", v.budget_ns, "Nanoseconds a pixel of the whole frame may take")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   command->add_option("--out", v.pictures, "Folder for result, exact Phong and error map (PNG)")
       ->type_name("DIR");
-  command->add_option("--json", options->json, "Write the results as JSON; - is standard output")
+  command
+      ->add_option("--json", options->json,
+                   "Write the results as JSON; - is standard output, in place of the report")
       ->type_name("FILE");
   const std::map<std::string, Detail> details = {{"span", Detail::span}, {"cycle", Detail::cycle}};
   command->add_option("--detail", v.detail, "SystemC by the span, or by every clock (slower)")
@@ -74,7 +78,8 @@ void add_verify(CLI::App& application, Run& run) {
       ->check(CLI::ExistingDirectory);
   command->footer(
       "Exit status: 0 all holds, 1 a check failed, 2 bad usage or input.\n"
-      "Example: phongpipe verify scene.toml --budget 20 --set rom_address_bits=12 --out pictures\n");
+      "Example: phongpipe verify scene.toml --budget 20 --set rom_address_bits=12 --out "
+      "pictures\n");
   options->hardware.add_to(*command);
   command->callback([options, &run] { run = [options] { return verify_scenes(*options); }; });
 }

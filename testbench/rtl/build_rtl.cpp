@@ -1,5 +1,5 @@
-// build_rtl DIR PRESET…: Verilates and compiles pixel_datapath for each preset, in grey and colour, so
-// that nobody has to wait for it later.
+// build_rtl DIR PRESET…: Verilates and compiles pixel_datapath for each preset, in grey and colour,
+// so that nobody has to wait for it later.
 #include <fmt/format.h>
 
 #include "testbench/hardware.h"

@@ -3,7 +3,9 @@
 namespace phongpipe {
 namespace {
 
-RtlSeries to_rtl(const SeriesStart& start) { return {start.v, start.d1, start.d2}; }
+RtlSeries to_rtl(const SeriesStart& start) {
+  return {start.v, start.d1, start.d2};
+}
 
 }  // namespace
 
@@ -24,7 +26,9 @@ RtlSpan to_rtl(const Span& span, const MaterialSetup& material) {
 RtlDatapath::RtlDatapath(const RtlLibrary& library)
     : interface_(&library.interface()), rtl_(interface_->create()) {}
 
-RtlDatapath::~RtlDatapath() { interface_->destroy(rtl_); }
+RtlDatapath::~RtlDatapath() {
+  interface_->destroy(rtl_);
+}
 
 void RtlDatapath::reset() {
   ports_ = {};

@@ -49,18 +49,21 @@ fs::path user_cache() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
   if (cache != nullptr && *cache != '\0') return fs::path(cache) / "phongpipe";
   const char* home = std::getenv("HOME");
-  return (home != nullptr && *home != '\0' ? fs::path(home) / ".cache" : fs::temp_directory_path()) /
+  return (home != nullptr && *home != '\0' ? fs::path(home) / ".cache"
+                                           : fs::temp_directory_path()) /
          "phongpipe";
 }
 
 std::string verilator_include() {
-  const char* const hint = "install the package `verilator`, or choose a configuration that is "
-                           "built beforehand, such as a preset as it is";
+  const char* const hint =
+      "install the package `verilator`, or choose a configuration that is "
+      "built beforehand, such as a preset as it is";
   const ProcessOutput output = run_process({"verilator", "--getenv", "VERILATOR_ROOT"});
   if (output.status != 0) {
-    throw InputError(fmt::format("the RTL of this configuration must be built, and verilator is "
-                                 "not to be found; {}",
-                                 hint));
+    throw InputError(
+        fmt::format("the RTL of this configuration must be built, and verilator is "
+                    "not to be found; {}",
+                    hint));
   }
   std::string root;
   for (LineReader lines(output.text); lines.rest() != "";) {  // the last line, after any warnings
@@ -117,8 +120,17 @@ void build(const DatapathConfiguration& c, const fs::path& sources, const fs::pa
   const ScratchFolder scratch(library.parent_path());
   const std::string folder = scratch.path().string();
   std::vector<std::string> verilate = {
-      "verilator", "--cc", "-O3", "-Wall", "--Mdir", folder, "--prefix", "Vpixel_datapath",
-      "--top-module", "pixel_datapath", "-I" + sources.string(),
+      "verilator",
+      "--cc",
+      "-O3",
+      "-Wall",
+      "--Mdir",
+      folder,
+      "--prefix",
+      "Vpixel_datapath",
+      "--top-module",
+      "pixel_datapath",
+      "-I" + sources.string(),
       fmt::format("-GCHANNELS={}", c.channels),
       fmt::format("-GDIFFUSE_FRACTION={}", c.diffuse_fraction_bits),
       fmt::format("-GSPECULAR_FRACTION={}", c.specular_fraction_bits),
@@ -131,8 +143,15 @@ void build(const DatapathConfiguration& c, const fs::path& sources, const fs::pa
   run_or_throw(verilate);
 
   std::vector<std::string> compile = {
-      "g++", "-std=c++17", "-O3", "-fPIC", "-shared", "-fvisibility=hidden",
-      "-I" + include, "-I" + include + "/vltstd", "-I" + folder,
+      "g++",
+      "-std=c++17",
+      "-O3",
+      "-fPIC",
+      "-shared",
+      "-fvisibility=hidden",
+      "-I" + include,
+      "-I" + include + "/vltstd",
+      "-I" + folder,
       "-I" + installation().rtl_shim.string(),
       fmt::format("-DPHONGPIPE_CHANNELS={}", c.channels),
       fmt::format("-DPHONGPIPE_DIFFUSE_WIDTH={}", c.diffuse_width()),
@@ -166,11 +185,14 @@ RtlLibrary::RtlLibrary(const DatapathConfiguration& configuration, const RtlBuil
   if (handle_ == nullptr) {
     throw InputError(fmt::format("{}; remove the file to have it built anew", dlerror()));
   }
-  const auto get = reinterpret_cast<const RtlInterface* (*)()>(dlsym(handle_, "phongpipe_rtl_interface"));
+  const auto get =
+      reinterpret_cast<const RtlInterface* (*)()>(dlsym(handle_, "phongpipe_rtl_interface"));
   if (get == nullptr) throw InputError(fmt::format("{}: {}", file_.string(), dlerror()));
   interface_ = get();
 }
 
-RtlLibrary::~RtlLibrary() { dlclose(handle_); }
+RtlLibrary::~RtlLibrary() {
+  dlclose(handle_);
+}
 
 }  // namespace phongpipe

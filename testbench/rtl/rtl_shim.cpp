@@ -17,8 +17,8 @@ constexpr int kDiffuseWidth = PHONGPIPE_DIFFUSE_WIDTH;
 constexpr int kSpecularWidth = PHONGPIPE_SPECULAR_WIDTH;
 constexpr int kRomDataBits = PHONGPIPE_ROM_DATA_BITS;
 
-// The low `width` bits of each value side by side, the first in the low bits, into a port of whatever
-// type Verilator chose for it.
+// The low `width` bits of each value side by side, the first in the low bits, into a port of
+// whatever type Verilator chose for it.
 template <typename Port, typename Value>
 void pack(Port& port, const Value* values, int count, int width) {
   const std::uint64_t mask = ~std::uint64_t{0} >> (64 - width);
@@ -29,7 +29,8 @@ void pack(Port& port, const Value* values, int count, int width) {
     }
     port = static_cast<Port>(packed);
   } else {  // words of 32 bits
-    for (int word = 0; word < static_cast<int>(sizeof(port) / sizeof(EData)); ++word) port[word] = 0;
+    for (int word = 0; word < static_cast<int>(sizeof(port) / sizeof(EData)); ++word)
+      port[word] = 0;
     for (int i = 0; i < count; ++i) {
       std::uint64_t value = static_cast<std::uint64_t>(values[i]) & mask;
       for (int bit = i * width; value != 0;) {
@@ -134,8 +135,7 @@ class Rtl {
 };
 
 const RtlInterface kInterface = {
-    []() -> void* { return new Rtl; },
-    [](void* rtl) { delete static_cast<Rtl*>(rtl); },
+    []() -> void* { return new Rtl; }, [](void* rtl) { delete static_cast<Rtl*>(rtl); },
     [](void* rtl, RtlPorts* ports) { static_cast<Rtl*>(rtl)->clock(*ports); },
     [](void* rtl, const RtlSpan* spans, std::size_t count, RtlPixel* pixels) {
       return static_cast<Rtl*>(rtl)->run(spans, count, pixels);

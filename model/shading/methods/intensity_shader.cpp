@@ -1,7 +1,10 @@
 #include "model/shading/methods/intensity_shader.h"
 
+#include <algorithm>
+
 #include "model/shading/methods/exact_phong.h"
 #include "model/shading/methods/intensity_shading.h"
+#include "model/shading/methods/method_shader.h"
 #include "model/shading/phong.h"
 
 namespace phongpipe {
@@ -64,27 +67,50 @@ class IntensityShader : public TriangleShader {
   std::array<Method, 3> channels_;
 };
 
-// Colours as the reference computes them; the bare loop is that of light and viewer at infinity.
+PhongForm phong_form(const Scene& scene) {
+  return {scene.shading.viewer == Viewer::local,
+          scene.lights.front().type != LightType::directional,
+          scene.shading.highlight == Highlight::reflection};
+}
+
+bool is_plain(const PhongForm& form) {
+  return !form.local_viewer && !form.light_at_distance && !form.mirror;
+}
+
+// Colours as the reference computes them.
 class PhongShader : public TriangleShader {
  public:
   explicit PhongShader(const ShaderContext& context)
       : origin_{context.origin_x, context.origin_y},
+        plain_(is_plain(phong_form(context.scene))),
         exact_(context.scene, context.material, context.triangle),
-        loop_(shading_input(context)) {}
+        plain_loop_(shading_input(context)),
+        varying_loop_(shading_input(context), phong_form(context.scene)) {}
 
   void shade(int x, int y, int length, Color* colors) override {
     exact_.shade(x, y, length, colors);
   }
 
   void reflect(int x, int y, int length, Reflection<double>* reflections) override {
-    loop_.start_span(x - origin_.x, y - origin_.y);
-    for (int i = 0; i < length; ++i) reflections[i] = loop_.next();
+    if (plain_) {
+      run(plain_loop_, x, y, length, reflections);
+    } else {
+      run(varying_loop_, x, y, length, reflections);
+    }
   }
 
  private:
+  template <typename Loop>
+  void run(Loop& loop, int x, int y, int length, Reflection<double>* reflections) {
+    loop.start_span(x - origin_.x, y - origin_.y);
+    for (int i = 0; i < length; ++i) reflections[i] = loop.next();
+  }
+
   OriginPixel origin_;
+  bool plain_;
   PhongTriangle exact_;
-  ExactPhong<double, Parts::full> loop_;
+  ExactPhong<double, Parts::full> plain_loop_;
+  VaryingPhong<double, Parts::full> varying_loop_;
 };
 
 }  // namespace
@@ -109,6 +135,18 @@ std::unique_ptr<TriangleShader> create_gouraud(const ShaderContext& context) {
 
 std::unique_ptr<TriangleShader> create_phong(const ShaderContext& context) {
   return std::make_unique<PhongShader>(context);
+}
+
+MethodCosts phong_costs(const Scene& scene, Parts parts, PowerKind kind) {
+  const PhongForm form = phong_form(scene);
+  if (is_plain(form)) return method_costs<ExactPhong, Output::cosines>(parts, kind);
+  const Power power(kind, kAnyShininess);
+  const auto counted = [&](auto make) { return count(Output::cosines, parts, power, make); };
+  using Input = ShadingInput<Recorded>;
+  if (parts == Parts::full) {
+    return counted([&](const Input& in) { return VaryingPhong<Recorded, Parts::full>(in, form); });
+  }
+  return counted([&](const Input& in) { return VaryingPhong<Recorded, Parts::diffuse>(in, form); });
 }
 
 }  // namespace phongpipe

@@ -1,7 +1,6 @@
 // From a method's template to a TriangleShader and to its costs.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -70,7 +69,7 @@ class MethodShader : public TriangleShader {
       if (r.diffuse > 0 && r.spot >= spot_least_) {
         Color lit = diffuse_ * r.diffuse;
         if constexpr (kParts == Parts::full) {
-          lit += specular_ * power_(std::min(1.0, r.highlight));
+          lit += specular_ * power_(r.highlight > 1 ? 1 : r.highlight);
         }
         if (spot_exponent_ > 0) lit *= std::pow(r.spot, spot_exponent_);
         sum += lit;
@@ -111,32 +110,40 @@ std::unique_ptr<TriangleShader> create_shader(const ShaderContext& context) {
   return std::make_unique<MethodShader<Method<double, Parts::full>, Parts::full>>(context);
 }
 
-template <typename Method, Output kOutput>
-MethodCosts count(Parts parts, const Power& power) {
+// `make` makes a method from a ShadingInput<Recorded>.
+template <typename Make>
+MethodCosts count(Output output, Parts parts, const Power& power, Make make) {
   ShadingInput<Recorded> input;
   input.power = &power;
   Recording recording;
-  const auto so_far = [&recording] { return recording.dataflow().counts(); };
+  OperationCounts before;
+  const auto since = [&] {
+    const OperationCounts now = recording.dataflow().counts();
+    return now - std::exchange(before, now);
+  };
   MethodCosts costs;
-  Method method(input);
-  costs.triangle = so_far();
-  OperationCounts before = so_far();
+  auto method = make(input);
+  costs.triangle = since();
   method.start_span(Recorded(), Recorded());
-  costs.span = so_far() - before;
-  before = so_far();
+  costs.span = since();
   const Reflection<Recorded> reflection = method.next();
-  costs.pixel = so_far() - before;
-  before = so_far();
-  combine(kOutput, parts, reflection, power);
-  costs.combine = so_far() - before;
+  costs.pixel = since();
+  combine(output, parts, reflection, power);
+  costs.combine = since();
   return costs;
 }
 
+constexpr double kAnyShininess = 20;  // counts do not depend on it
+
 template <template <typename, Parts> class Method, Output kOutput>
 MethodCosts method_costs(Parts parts, PowerKind kind) {
-  const Power power(kind, 20);  // counts do not depend on the exponent
-  return parts == Parts::full ? count<Method<Recorded, Parts::full>, kOutput>(parts, power)
-                              : count<Method<Recorded, Parts::diffuse>, kOutput>(parts, power);
+  const Power power(kind, kAnyShininess);
+  const auto counted = [&](auto make) { return count(kOutput, parts, power, make); };
+  using Input = ShadingInput<Recorded>;
+  if (parts == Parts::full) {
+    return counted([](const Input& in) { return Method<Recorded, Parts::full>(in); });
+  }
+  return counted([](const Input& in) { return Method<Recorded, Parts::diffuse>(in); });
 }
 
 }  // namespace phongpipe

@@ -23,8 +23,8 @@ class TriangleShader {
   // put together as exact Phong shading does it: no highlight where N·L is not positive.
   virtual void shade(int x, int y, int length, Color* colors) = 0;
 
-  // The bare inner loop, as costs() counts it: what the method makes of the first light. From flat
-  // and Gouraud shading, intensities.
+  // The bare inner loop, as costs() counts it: what the method makes of the first light, wherever
+  // it is degenerate too. From flat and Gouraud shading, intensities.
   virtual void reflect(int x, int y, int length, Reflection<double>* reflections) = 0;
 
   // Spans that shade() gave to exact Phong shading, the method's own form being degenerate there.
@@ -84,6 +84,10 @@ struct ShadingMethod {
 };
 
 const std::vector<ShadingMethod>& shading_methods();
+
+// What exact Phong shading costs where eye or light are at a distance, or the highlight is R·V: the
+// costs of "phong" itself are those of light and eye at infinity and N·H.
+MethodCosts phong_costs(const Scene& scene, Parts parts, PowerKind power);
 
 // None: no method has that name.
 const ShadingMethod* find_shading_method(std::string_view name);

@@ -12,7 +12,9 @@ class TaylorSeries {
  public:
   explicit TaylorSeries(const ShadingInput<T>& in) {
     const Interpolator<T> interpolate = interpolator(in);
-    const NormalExpansion<T> normal(interpolate(in.normal[0], in.normal[1], in.normal[2]));
+    const Linear<Vector3<T>> n = interpolate(in.normal[0], in.normal[1], in.normal[2]);
+    const NormalExpansion<T> normal(n);
+    normal_ = n.c;
     diffuse_ = normal.infinite(in.light);
     if constexpr (kParts == Parts::full) {
       if constexpr (kLocalViewer) {
@@ -22,7 +24,9 @@ class TaylorSeries {
           const Vector3<T>& eye = in.eye[i];
           halfway[i] = eye * rsqrt(eye.dot(eye)) + in.light;
         }
-        highlight_ = normal.finite(interpolate(halfway[0], halfway[1], halfway[2]));
+        const Linear<Vector3<T>> h = interpolate(halfway[0], halfway[1], halfway[2]);
+        halfway_ = h.c;
+        highlight_ = normal.finite(h);
       } else {
         highlight_ = normal.infinite(in.halfway);
       }
@@ -41,7 +45,16 @@ class TaylorSeries {
     return result;
   }
 
+  // Opposed normals, or an eye opposite the light: the vector at the origin, by whose length the
+  // series is divided, nearly vanishes.
+  bool degenerate(double, double, int) const {
+    constexpr double kLeastNormal = 0.1, kLeastHalfway = 0.01;
+    if (!(normal_.norm() > kLeastNormal)) return true;
+    return kLocalViewer && kParts == Parts::full && !(halfway_.norm() > kLeastHalfway);
+  }
+
  private:
+  Vector3<T> normal_, halfway_;  // at the origin
   Quadratic<T> diffuse_, highlight_;
   ForwardDifferences<T, 2> p_, r_;
 };

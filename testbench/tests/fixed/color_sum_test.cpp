@@ -35,7 +35,8 @@ void expect_exact(const DatapathConfiguration& c, std::int64_t level, std::int32
   const std::int32_t last = (1 << c.rom_data_bits) - 1;
   for (std::int64_t diffuse = -end; diffuse < end; ++diffuse) {
     for (std::int32_t word = 0;; word = std::min(word + word_step, last)) {
-      const int color = color_of(c, diffuse, level, word), exact = exact_color(c, diffuse, level, word);
+      const int color = color_of(c, diffuse, level, word),
+                exact = exact_color(c, diffuse, level, word);
       if (color != exact) {
         FAIL() << "diffuse " << diffuse << ", level " << level << ", word " << word << ": " << color
                << ", exactly " << exact << "; " << c.rom_data_bits << " data bits";
@@ -50,7 +51,7 @@ TEST(ColorSum, IsExactForEveryDiffuseValueAndWordSize) {
     const DatapathConfiguration c = formats(data_bits, kMinDiffuseFraction);
     const std::int32_t words = 1 << data_bits;
     const std::int32_t step = std::max(1, words / 61);  // 61: prime, so that low bits vary
-    expect_exact(c, 8, step);        // the rounding half alone
+    expect_exact(c, 8, step);                           // the rounding half alone
     expect_exact(c, 25 * 16 + 13, step);
     expect_exact(c, 255 * 16 + 8, step);
   }

@@ -15,11 +15,9 @@ namespace phongpipe {
 namespace {
 
 constexpr unsigned kSeed = 77;
-
-struct Point {
-  int x, y;  // 1/256 pixel
+struct Point {  // 1/256 pixel
+  int x, y;
 };
-
 ScreenTriangle triangle_of(Point p, Point q, Point r) {
   ScreenTriangle triangle;
   const std::array<Point, 3> corners = {p, q, r};
@@ -59,7 +57,6 @@ bool contains(const std::vector<Point>& polygon, int x, int y) {
 class Counter {
  public:
   Counter(int width, int height) : width_(width), height_(height), counts_(size()) {}
-
   void add(const ScreenTriangle& triangle) {
     std::vector<RowSpan> rows = {{1, 2, 3}};  // to be overwritten
     cover(triangle, width_, height_, rows);
@@ -131,12 +128,13 @@ TEST(Coverage, AFanCoversEachPixelOnce) {
   Random random(kSeed);
   for (int i = 0; i < 300; ++i) {
     const Point hub = random_point(random, 8, 24);
-    const int blades = random.integer(3, 9);
+    const int blades = random.integer(4, 9);  // each less than half a turn
     std::vector<Point> rim;
     for (int k = 0; k < blades; ++k) {
       const double angle = (k + random.uniform(-0.4, 0.4)) * 6.283185307179586 / blades;
       const double radius = random.uniform(3, 30);
-      rim.push_back({hub.x + snap(radius * std::cos(angle)), hub.y + snap(radius * std::sin(angle))});
+      rim.push_back(
+          {hub.x + snap(radius * std::cos(angle)), hub.y + snap(radius * std::sin(angle))});
     }
     Counter counter(32, 32);
     for (std::size_t k = 0; k < rim.size(); ++k) {
@@ -157,7 +155,8 @@ TEST(Coverage, AGridCoversTheImageOnce) {
       for (int column = 0; column <= kCells; ++column) {
         const Point jitter = random_point(random, -1, 1);
         corner[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = {
-            (column * kCell - 4) * kSubpixels + jitter.x, (row * kCell - 4) * kSubpixels + jitter.y};
+            (column * kCell - 4) * kSubpixels + jitter.x,
+            (row * kCell - 4) * kSubpixels + jitter.y};
       }
     }
     Counter counter(kSize, kSize);
@@ -179,8 +178,8 @@ TEST(Coverage, AGridCoversTheImageOnce) {
 
 TEST(Coverage, ATriangleWithoutAreaCoversNothing) {
   std::vector<RowSpan> rows = {{0, 0, 1}};
-  cover(triangle_of({0, 0}, {5 * kSubpixels, 5 * kSubpixels}, {9 * kSubpixels, 9 * kSubpixels}), 16, 16,
-        rows);
+  cover(triangle_of({0, 0}, {5 * kSubpixels, 5 * kSubpixels}, {9 * kSubpixels, 9 * kSubpixels}), 16,
+        16, rows);
   EXPECT_TRUE(rows.empty());
 }
 
@@ -191,7 +190,8 @@ TEST(Coverage, HoldsUpToTheGuardBand) {
   const int size = kMaxImageSize, low = -kGuardBand, high = kMaxImageSize + kGuardBand;
   for (int i = 0; i < 200; ++i) {
     const auto corner = [&] {
-      const int x = random.integer(0, 1) == 0 ? low : high, y = random.integer(0, 1) == 0 ? low : high;
+      const int x = random.integer(0, 1) == 0 ? low : high;
+      const int y = random.integer(0, 1) == 0 ? low : high;
       const Point p = random_point(random, 0, 40);
       return Point{x * kSubpixels + (x < 0 ? p.x : -p.x), y * kSubpixels + (y < 0 ? p.y : -p.y)};
     };
@@ -203,7 +203,8 @@ TEST(Coverage, HoldsUpToTheGuardBand) {
     for (int k = 0; k < 200; ++k) {
       const int y = random.integer(0, size - 1);
       const RowSpan row = by_line[static_cast<std::size_t>(y)];
-      for (const int x : {0, row.x - 1, row.x, row.x + row.length - 1, row.x + row.length, size - 1}) {
+      for (const int x :
+           {0, row.x - 1, row.x, row.x + row.length - 1, row.x + row.length, size - 1}) {
         if (x < 0 || x >= size) continue;
         ASSERT_EQ(row.x <= x && x < row.x + row.length, contains(polygon, x, y))
             << "triangle " << i << ", pixel " << x << ", " << y;

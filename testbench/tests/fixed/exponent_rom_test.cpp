@@ -1,5 +1,5 @@
-// The power of Phong's highlight by table: every word, every corner of its address, and the accuracy
-// figures of NUMERICS section 6.
+// The power of Phong's highlight by table: every word, every corner of its address, and the
+// accuracy figures of NUMERICS section 6.
 #include "model/fixed/exponent_rom.h"
 
 #include <gtest/gtest.h>
@@ -130,8 +130,8 @@ TEST(ExponentRom, LargestErrorIsWhatADenseSamplingFinds) {
             sampled = std::max(sampled, std::fabs(std::pow(x, n) - entry));
           }
         }
-        const std::string which = std::to_string(address_bits) + " address bits, n = " +
-                                  std::to_string(n);
+        const std::string which =
+            std::to_string(address_bits) + " address bits, n = " + std::to_string(n);
         EXPECT_LE(sampled, bound) << which;
         EXPECT_GE(sampled, bound * (1 - 1e-6)) << which;
       }

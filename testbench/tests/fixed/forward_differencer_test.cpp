@@ -1,5 +1,5 @@
-// Forward differences are exact: stepping gives the value of the integer polynomial, so the model may
-// evaluate the closed form and must still match the RTL to the bit.
+// Forward differences are exact: stepping gives the value of the integer polynomial, so the model
+// may evaluate the closed form and must still match the RTL to the bit.
 #include "model/fixed/forward_differencer.h"
 
 #include <gtest/gtest.h>
@@ -23,8 +23,7 @@ FixedQuadratic any_quadratic() {
   const auto coefficient = [] {
     return *rc::gen::arbitrary<std::int64_t>() >> *rc::gen::inRange(4, 60);
   };
-  return {coefficient(), coefficient(), coefficient(),
-          coefficient(), coefficient(), coefficient()};
+  return {coefficient(), coefficient(), coefficient(), coefficient(), coefficient(), coefficient()};
 }
 
 SeriesStart start_of(const FixedQuadratic& t, std::int64_t x, std::int64_t y) {

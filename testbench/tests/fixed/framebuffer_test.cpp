@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "testbench/tests/fixed/random_frame.h"
 
 namespace phongpipe {
@@ -18,40 +20,67 @@ FrameSetup small_frame(int channels = 3, int depth_bits = 8) {
 
 TEST(Framebuffer, StartsAsBackground) {
   const Framebuffer color(small_frame(3)), grey(small_frame(1));
-  ASSERT_EQ(color.colors().size(), 12U);
-  EXPECT_EQ(color.width(), 4);
-  EXPECT_EQ(color.height(), 3);
-  for (const std::uint32_t pixel : color.colors()) EXPECT_EQ(pixel, 0xff8033U);  // 51, 128, 255
-  for (const std::uint32_t pixel : grey.colors()) EXPECT_EQ(pixel, 0x33U);
-  for (const std::uint32_t place : color.places()) EXPECT_EQ(place, Framebuffer::kNoPixel);
+  ASSERT_EQ(color.size(), 12U);
+  EXPECT_EQ(color.background(), 0xff8033U);  // 51, 128, 255
+  EXPECT_EQ(grey.background(), 0x33U);
+  for (std::size_t i = 0; i < color.size(); ++i) {
+    EXPECT_FALSE(color.covered(i));
+    EXPECT_EQ(color.color(i), 0xff8033U);
+    EXPECT_EQ(grey.color(i), 0x33U);
+  }
 }
 
 TEST(Framebuffer, TheNearerPixelWins) {
   Framebuffer framebuffer(small_frame());
   const std::size_t index = 2 * 4 + 3;
-  EXPECT_TRUE(framebuffer.write({3, 2, 10}, 100, 0));
-  EXPECT_FALSE(framebuffer.write({3, 2, 20}, 101, 1));
-  EXPECT_EQ(framebuffer.colors()[index], 10U);
-  EXPECT_TRUE(framebuffer.write({3, 2, 30}, 99, 2));
-  EXPECT_EQ(framebuffer.colors()[index], 30U);
-  EXPECT_EQ(framebuffer.places()[index], 2U);
+  EXPECT_TRUE(framebuffer.write(3, 2, 100, 10));
+  EXPECT_FALSE(framebuffer.write(3, 2, 101, 20));
+  EXPECT_EQ(framebuffer.value(index), 10U);
+  EXPECT_TRUE(framebuffer.write(3, 2, 99, 30));
+  EXPECT_EQ(framebuffer.value(index), 30U);
 }
 
 TEST(Framebuffer, TheEarlierPixelWinsWhereDepthsAreEqual) {
   Framebuffer framebuffer(small_frame());
-  EXPECT_TRUE(framebuffer.write({0, 0, 10}, 0, 0));
-  EXPECT_FALSE(framebuffer.write({0, 0, 20}, 0, 1));
-  EXPECT_EQ(framebuffer.colors()[0], 10U);
-  EXPECT_EQ(framebuffer.places()[0], 0U);
+  EXPECT_TRUE(framebuffer.write(0, 0, 0, 10));
+  EXPECT_FALSE(framebuffer.write(0, 0, 0, 20));
+  EXPECT_EQ(framebuffer.value(0), 10U);
 }
 
 TEST(Framebuffer, WritesOnePixelAndTheFarthestDepthBeatsTheBackground) {
-  const FrameSetup frame = small_frame(3, 30);
-  Framebuffer framebuffer(frame);
-  EXPECT_TRUE(framebuffer.write({1, 2, 0x123456}, (1U << 30) - 1, 7));
-  for (std::size_t i = 0; i < 12; ++i) {
-    EXPECT_EQ(framebuffer.colors()[i], i == 9 ? 0x123456U : 0xff8033U) << "index " << i;
-    EXPECT_EQ(framebuffer.places()[i], i == 9 ? 7U : Framebuffer::kNoPixel) << "index " << i;
+  Framebuffer framebuffer(small_frame(3, 30));
+  EXPECT_TRUE(framebuffer.write(1, 2, (1U << 30) - 1, 0));
+  for (std::size_t i = 0; i < framebuffer.size(); ++i) {
+    EXPECT_EQ(framebuffer.covered(i), i == 9) << "index " << i;
+    EXPECT_EQ(framebuffer.color(i), i == 9 ? 0U : 0xff8033U) << "index " << i;
+  }
+}
+
+TEST(Framebuffer, ASpanIsWrittenAsItsPixelsAre) {
+  constexpr unsigned kSeed = 23;
+  SCOPED_TRACE(kSeed);
+  Random random(kSeed);
+  const FrameSetup frame = small_frame(1, 8);
+  Framebuffer by_span(frame), by_pixel(frame);
+  for (int k = 0; k < 200; ++k) {
+    Span span;
+    span.row.x = random.integer(0, 3);
+    span.row.y = random.integer(0, 2);
+    span.row.length = random.integer(1, 4 - span.row.x);
+    span.depth = std::int64_t{random.integer(-10, 265)} << kDepthFraction;
+    span.depth_step = random.integer(-(3 << kDepthFraction), 3 << kDepthFraction);
+    const std::array<std::uint32_t, 4> values = {1, 2, 3, 4};
+    std::array<std::uint8_t, 4> written = {};
+    by_span.write_span(frame, span, values.data(), written.data());
+    for (int i = 0; i < span.row.length; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      EXPECT_EQ(written[at] != 0, by_pixel.write(span.row.x + i, span.row.y,
+                                                 Framebuffer::depth(frame, span, i), values[at]))
+          << "span " << k << ", pixel " << i;
+    }
+    for (std::size_t i = 0; i < by_span.size(); ++i) {
+      ASSERT_EQ(by_span.color(i), by_pixel.color(i)) << "span " << k << ", index " << i;
+    }
   }
 }
 

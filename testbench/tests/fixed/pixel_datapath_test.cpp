@@ -54,9 +54,12 @@ MaterialSetup random_material(Random& random, const DatapathConfiguration& c) {
 SeriesStart random_start(Random& random, int width) {
   const auto value = [&](int smallest_shift) {
     switch (random.integer(0, 9)) {
-      case 0: return std::int64_t{1} << (width - 1);         // the most negative
-      case 1: return (std::int64_t{1} << (width - 1)) - 1;   // the most positive
-      default: return random.bits() >> random.integer(smallest_shift, 63);
+      case 0:
+        return std::int64_t{1} << (width - 1);  // the most negative
+      case 1:
+        return (std::int64_t{1} << (width - 1)) - 1;  // the most positive
+      default:
+        return random.bits() >> random.integer(smallest_shift, 63);
     }
   };
   return {value(0), value(64 - width), value(64 - width)};
@@ -107,9 +110,13 @@ void expect_stepping(Evaluation evaluation) {
   }
 }
 
-TEST(PixelDatapath, PortableEqualsStepping) { expect_stepping(Evaluation::portable); }
+TEST(PixelDatapath, PortableEqualsStepping) {
+  expect_stepping(Evaluation::portable);
+}
 
-TEST(PixelDatapath, TheBestEvaluationEqualsStepping) { expect_stepping(best_evaluation()); }
+TEST(PixelDatapath, TheBestEvaluationEqualsStepping) {
+  expect_stepping(best_evaluation());
+}
 
 TEST(PixelDatapath, EveryGateAndChannelCountInBothWordSizes) {
   SCOPED_TRACE(kSeed);

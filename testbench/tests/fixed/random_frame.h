@@ -1,5 +1,5 @@
-// Frames the tests of fixed point and of the pipeline are made of: random screen triangles under one
-// light, with materials that alternate.
+// Frames the tests of fixed point and of the pipeline are made of: random screen triangles under
+// one light, with materials that alternate.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -45,6 +45,7 @@ inline Scene lit_scene(int width, int height) {
   Scene scene;
   scene.image.width = width;
   scene.image.height = height;
+  scene.objects.emplace_back();
   scene.lights.emplace_back();
   scene.lights.front().direction = Vec3(-0.3, -0.4, -1).normalized();
   return scene;

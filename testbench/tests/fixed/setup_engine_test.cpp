@@ -23,7 +23,8 @@ void expect_rounded(std::int64_t fixed, double real, int fraction_bits, const st
 
 void expect_rounded(const FixedQuadratic& fixed, const Quadratic<double>& real, int fraction_bits,
                     const std::string& what) {
-  const std::array<std::int64_t, 6> t = {fixed.t0, fixed.t1, fixed.t2, fixed.t3, fixed.t4, fixed.t5};
+  const std::array<std::int64_t, 6> t = {fixed.t0, fixed.t1, fixed.t2,
+                                         fixed.t3, fixed.t4, fixed.t5};
   const std::array<double, 6> exact = {real.t0, real.t1, real.t2, real.t3, real.t4, real.t5};
   for (std::size_t i = 0; i < 6; ++i) {
     expect_rounded(t[i], exact[i], fraction_bits, what + " T" + std::to_string(i));

@@ -49,7 +49,7 @@ FixedQuadratic random_series(Random& random, double range, int length) {
     return static_cast<std::int64_t>(random.uniform(-limit, limit));
   };
   const double n = length;
-  return {up_to(range), up_to(range / n), up_to(range / n),
+  return {up_to(range),         up_to(range / n),     up_to(range / n),
           up_to(range / n / n), up_to(range / n / n), up_to(range / n / n)};
 }
 
@@ -76,8 +76,7 @@ TEST(SpanWalker, StartsAreExactFromTheRoundedCoefficients) {
       setup.depth = random.integer(0, 1 << 30);
       setup.depth_x = random.integer(-(1 << 24), 1 << 24);
       setup.depth_y = random.integer(-(1 << 24), 1 << 24);
-      bool overflow = false;
-      const Span span = walker.start(setup, row, overflow);
+      const Span span = walker.start(setup, row);
       const int x = row.x - setup.x, y = row.y - setup.y;
       for (std::size_t c = 0; c < 3; ++c) {
         expect_starts(span.diffuse[c], exact_starts(setup.diffuse[c], x, y, dropped));
@@ -134,10 +133,9 @@ void expect_flags(const Formats& formats, double margin) {
     const bool diffuse = i % 2 == 0;
     const int width = diffuse ? configuration.diffuse_width() : configuration.specular_width();
     const FixedQuadratic t =
-        random_series(random, std::ldexp(0.5, width + dropped - 1), row.length);
+        random_series(random, std::ldexp(random.uniform(0.1, 1), width + dropped - 1), row.length);
     (diffuse ? setup.diffuse[0] : setup.specular) = t;
-    bool overflow = false;
-    walker.start(setup, row, overflow);
+    const bool overflow = !walker.fits(setup, row);
     const auto [low, high] =
         extremes(exact_starts(t, row.x - setup.x, row.y - setup.y, dropped), row.length);
     const Wide end = Wide{1} << (width - 1);
@@ -174,14 +172,25 @@ TEST(SpanWalker, ReportsNothingThatFitsInLongSpansOfNarrowRegisters) {
   expect_flags({Anchor::span, 8, 6, 512}, 0.01);
 }
 
-TEST(SpanWalker, DoesNotTakeAReportBack) {
-  const SpanWalker walker(frame_of(DatapathConfiguration()));
-  bool overflow = true;
-  walker.start(TriangleSetup(), {0, 0, 5}, overflow);
-  EXPECT_TRUE(overflow);
-  overflow = false;
-  walker.start(TriangleSetup(), {0, 0, 5}, overflow);
-  EXPECT_FALSE(overflow);
+TEST(SpanWalker, LooksAtEverySeriesInUse) {
+  DatapathConfiguration configuration;
+  configuration.channels = 3;
+  configuration.gate = GateSource::series;
+  const SpanWalker walker(frame_of(configuration));
+  const RowSpan row = {0, 0, 5};
+  EXPECT_TRUE(walker.fits(TriangleSetup(), row));
+  const FixedQuadratic large = {std::int64_t{1} << 50, 0, 0, 0, 0, 0};
+  for (int series = 0; series < 5; ++series) {
+    TriangleSetup setup;
+    if (series < 3) setup.diffuse[static_cast<std::size_t>(series)] = large;
+    if (series == 3) setup.gate = large;
+    if (series == 4) setup.specular = large;
+    EXPECT_FALSE(walker.fits(setup, row)) << "series " << series;
+    // What is not in use does not count.
+    const SpanWalker grey(frame_of(DatapathConfiguration()));
+    EXPECT_EQ(grey.fits(setup, row), series == 1 || series == 2 || series == 3)
+        << "series " << series;
+  }
 }
 
 }  // namespace

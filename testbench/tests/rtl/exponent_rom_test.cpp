@@ -13,7 +13,9 @@ namespace {
 constexpr int kWordBits = 12;
 
 // A word that tells its address apart from its neighbours'.
-std::uint32_t word_at(std::uint32_t address) { return (address * 2654435761U >> 7) & 0xfff; }
+std::uint32_t word_at(std::uint32_t address) {
+  return (address * 2654435761U >> 7) & 0xfff;
+}
 
 class ExponentRomRtl : public ::testing::Test {
  protected:
@@ -60,7 +62,8 @@ TEST_F(ExponentRomRtl, EveryValueOfEverySizeTwoClocksLater) {
     clock();
     if (v > 0) {
       for (int bits = kMinRomAddressBits; bits <= kMaxRomAddressBits; ++bits) {
-        ASSERT_EQ(word(bits), expected(bits, in_flight)) << "2^" << bits << " words, v " << in_flight;
+        ASSERT_EQ(word(bits), expected(bits, in_flight))
+            << "2^" << bits << " words, v " << in_flight;
       }
     }
     in_flight = v;

@@ -75,11 +75,16 @@ class SpanSource {
     const std::int64_t top = (std::int64_t{1} << (width - 1)) - 1;
     const auto any = static_cast<std::int64_t>(random_());
     switch (random_() % 6) {
-      case 0: return top;
-      case 1: return -top - 1;
-      case 2: return any % 3;
-      case 3: return any % (top / 256 + 1);
-      default: return wrap_to(any, width);
+      case 0:
+        return top;
+      case 1:
+        return -top - 1;
+      case 2:
+        return any % 3;
+      case 3:
+        return any % (top / 256 + 1);
+      default:
+        return wrap_to(any, width);
     }
   }
   SeriesStart start(int width) { return {value(width), value(width), value(width)}; }

@@ -58,8 +58,8 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
   const Geometry geometry = make_geometry(scene);
   Hardware suited = hardware_;
   suit_scene(suited, scene, geometry);
-  const ModelFrame model = run_model(
-      FrameSetup(scene, geometry, suited.datapath, suited.pipeline.depth_bits), geometry);
+  const ModelFrame model =
+      run_model(FrameSetup(scene, geometry, suited.datapath, suited.pipeline.depth_bits), geometry);
   std::size_t brightest = 0;
   for (std::size_t i = 0; i < model.stream.size(); ++i) {
     if (model.stream[i].color > model.stream[brightest].color) brightest = i;

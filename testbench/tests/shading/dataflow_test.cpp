@@ -56,7 +56,7 @@ TEST(Dataflow, AQuadraticIsFiveAndFive) {
 TEST(Dataflow, KnowsWhatDependsOnWhat) {
   Recording recording;
   const Recorded a, b;
-  const Recorded product = a * b;       // 0
+  const Recorded product = a * b;        // 0
   const Recorded root = rsqrt(product);  // 1
   const Recorded copy = -half(root);
   (void)(copy + product);  // 2

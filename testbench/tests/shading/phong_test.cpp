@@ -111,8 +111,8 @@ TEST(Illuminate, ASpotHasACutoffAndAnExponent) {
   const auto at = [&](const Vec3& to_light) {
     return illuminate(bench.scene, bench.light(), kZ, to_light).color[0];
   };
-  EXPECT_NEAR(at(2 * kZ), 0.25, kExact);                           // on the axis, 2 away
-  EXPECT_NEAR(at(Vec3(kHalfRoot, 0, kHalfRoot)), 0.5, kExact);     // cos² 45°
+  EXPECT_NEAR(at(2 * kZ), 0.25, kExact);                        // on the axis, 2 away
+  EXPECT_NEAR(at(Vec3(kHalfRoot, 0, kHalfRoot)), 0.5, kExact);  // cos² 45°
   const auto tilted = [](double degrees) {
     const double angle = degrees * 3.14159265358979323846 / 180;
     return Vec3(std::sin(angle), 0, std::cos(angle));

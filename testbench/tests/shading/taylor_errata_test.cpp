@@ -21,18 +21,20 @@ constexpr int kCases = 2000;
 constexpr double kAgree = 1e-12;  // measured below 3e-14
 constexpr double kFarOff = 1e-3;
 
-double power(double x, int n) { return n == 0 ? 1 : x * power(x, n - 1); }
+double power(double x, int n) {
+  return n == 0 ? 1 : x * power(x, n - 1);
+}
 
 // One thing at a time is as the paper prints it.
 enum class Printed {
   nothing,
-  infinite_t5,       // 3ig² for 3cg²
-  coefficient_m,     // m = E·E for D·D
-  coefficient_o,     // o = 2D·E for E·E
-  finite_t5_ajlr,    // −4ajlr² for −4djlr²
-  finite_t5_fjlp,    // 2fjlp for 2fjlpr
-  finite_t4_fjlr,    // −fjlr for +fjlqr
-  finite_t4_f2nr,    // −2f²nr for −2fl²nr
+  infinite_t5,     // 3ig² for 3cg²
+  coefficient_m,   // m = E·E for D·D
+  coefficient_o,   // o = 2D·E for E·E
+  finite_t5_ajlr,  // −4ajlr² for −4djlr²
+  finite_t5_fjlp,  // 2fjlp for 2fjlpr
+  finite_t4_fjlr,  // −fjlr for +fjlqr
+  finite_t4_f2nr,  // −2f²nr for −2fl²nr
 };
 
 Six paper_infinite(const Linear<Vec>& normal, const Vec& light, Printed printed) {
@@ -67,12 +69,12 @@ Six paper_finite(const Linear<Vec>& normal, const Linear<Vec>& halfway, Printed 
   const double fnr = printed == Printed::finite_t4_f2nr ? f * f * n * r : f * l2 * n * r;
   const double t5 = 8 * a * l2 * r2 - 4 * djlr - 4 * f * g * l * r2 + 3 * f * j * j * r2 -
                     4 * d * l2 * p * r + 2 * fjlp - 4 * f * l2 * m * r + 3 * f * l2 * p * p;
-  const double t4 = 4 * b * l2 * r2 - 2 * d * k * l * r2 - 2 * e * j * l * r2 -
-                    2 * f * h * l * r2 + 3 * f * j * k * r2 - 2 * d * l2 * q * r + fjlr -
-                    2 * e * l2 * p * r + f * k * l * p * r - 2 * fnr + 3 * f * l2 * p * q;
-  const double t3 = 8 * c * l2 * r2 - 4 * e * k * l * r2 - 4 * f * i * l * r2 +
-                    3 * f * k * k * r2 - 4 * e * l2 * q * r + 2 * f * k * l * q * r -
-                    4 * f * l2 * o * r + 3 * f * l2 * q * q;
+  const double t4 = 4 * b * l2 * r2 - 2 * d * k * l * r2 - 2 * e * j * l * r2 - 2 * f * h * l * r2 +
+                    3 * f * j * k * r2 - 2 * d * l2 * q * r + fjlr - 2 * e * l2 * p * r +
+                    f * k * l * p * r - 2 * fnr + 3 * f * l2 * p * q;
+  const double t3 = 8 * c * l2 * r2 - 4 * e * k * l * r2 - 4 * f * i * l * r2 + 3 * f * k * k * r2 -
+                    4 * e * l2 * q * r + 2 * f * k * l * q * r - 4 * f * l2 * o * r +
+                    3 * f * l2 * q * q;
   return {f / root,
           (2 * e * l * r - f * k * r - f * l * q) / (2 * l * r * root),
           (2 * d * l * r - f * j * r - f * l * p) / (2 * l * r * root),
@@ -81,7 +83,9 @@ Six paper_finite(const Linear<Vec>& normal, const Linear<Vec>& halfway, Printed 
           t5 / (8 * l2 * r2 * root)};
 }
 
-Six six(const Quadratic<double>& t) { return {t.t0, t.t1, t.t2, t.t3, t.t4, t.t5}; }
+Six six(const Quadratic<double>& t) {
+  return {t.t0, t.t1, t.t2, t.t3, t.t4, t.t5};
+}
 
 // Of T_i, relative to the largest of the six.
 double difference_of(std::size_t i, const Six& t, const Six& expected) {
@@ -134,18 +138,18 @@ TEST_P(PaperErrata, OnlyTheCorrectedFormAgrees) {
   EXPECT_GT(worst_printed, kFarOff) << "the paper's own " << name << " would do";
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Taylor, PaperErrata,
-    testing::Values(Erratum{"InfiniteT5", Printed::infinite_t5, false, 5},
-                    Erratum{"CoefficientM", Printed::coefficient_m, true, 5},
-                    Erratum{"CoefficientO", Printed::coefficient_o, true, 3},
-                    Erratum{"FiniteT5ajlr", Printed::finite_t5_ajlr, true, 5},
-                    Erratum{"FiniteT5fjlp", Printed::finite_t5_fjlp, true, 5},
-                    Erratum{"FiniteT4fjlr", Printed::finite_t4_fjlr, true, 4},
-                    Erratum{"FiniteT4f2nr", Printed::finite_t4_f2nr, true, 4}),
-    [](const auto& erratum) { return std::string(erratum.param.name); });
+INSTANTIATE_TEST_SUITE_P(Taylor, PaperErrata,
+                         testing::Values(Erratum{"InfiniteT5", Printed::infinite_t5, false, 5},
+                                         Erratum{"CoefficientM", Printed::coefficient_m, true, 5},
+                                         Erratum{"CoefficientO", Printed::coefficient_o, true, 3},
+                                         Erratum{"FiniteT5ajlr", Printed::finite_t5_ajlr, true, 5},
+                                         Erratum{"FiniteT5fjlp", Printed::finite_t5_fjlp, true, 5},
+                                         Erratum{"FiniteT4fjlr", Printed::finite_t4_fjlr, true, 4},
+                                         Erratum{"FiniteT4f2nr", Printed::finite_t4_f2nr, true, 4}),
+                         [](const auto& erratum) { return std::string(erratum.param.name); });
 
-// Why images do not show the infinite form's erratum: about the centre of a symmetric triangle g = 0.
+// Why images do not show the infinite form's erratum: about the centre of a symmetric triangle g =
+// 0.
 TEST(PaperErrata, TheErratumOfT5VanishesOnASymmetricTriangle) {
   const Linear<Vec> normal = {Vec(0.1, 0, 0), Vec(0, 0.1, 0), Vec(0, 0, 1)};
   const Vec light = Vec(1, 2, 3).normalized();

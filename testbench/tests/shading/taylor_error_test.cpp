@@ -1,5 +1,5 @@
-// How far a Taylor series is off over its triangle (NUMERICS section 4): the gate that decides which
-// triangles it may shade stands on these figures.
+// How far a Taylor series is off over its triangle (NUMERICS section 4): the gate that decides
+// which triangles it may shade stands on these figures.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

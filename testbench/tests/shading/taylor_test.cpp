@@ -53,7 +53,9 @@ Jet dot(const Linear<Vec>& p, const Linear<Vec>& q) {
 }
 
 using Six = std::array<double, 6>;  // T0 … T5
-Six six(const Quadratic<double>& t) { return {t.t0, t.t1, t.t2, t.t3, t.t4, t.t5}; }
+Six six(const Quadratic<double>& t) {
+  return {t.t0, t.t1, t.t2, t.t3, t.t4, t.t5};
+}
 
 Six series_of_cosine(const Linear<Vec>& n, const Linear<Vec>& m) {
   const Jet s = dot(n, m) * inverse_root(dot(n, n)) * inverse_root(dot(m, m));
@@ -116,8 +118,9 @@ TEST(NormalExpansion, InfiniteIsTheTruncatedPowerSeries) {
     const Vec light = random.unit();
     const Six t = six(NormalExpansion<double>(n).infinite(light));
     const Six expected = series_of_cosine(n, {Vec::Zero(), Vec::Zero(), light});
-    ASSERT_LT(relative_difference(t, expected), kAgree)
-        << "case " << i << "\n" << text(t) << "\n" << text(expected);
+    ASSERT_LT(relative_difference(t, expected), kAgree) << "case " << i << "\n"
+                                                        << text(t) << "\n"
+                                                        << text(expected);
     worst = std::max(worst, relative_difference(t, expected));
   }
   RecordProperty("largest_relative_difference", std::to_string(worst * 1e15) + "e-15");
@@ -131,8 +134,9 @@ TEST(NormalExpansion, FiniteIsTheTruncatedPowerSeries) {
     const Linear<Vec> n = random.linear(), m = random.linear();
     const Six t = six(NormalExpansion<double>(n).finite(m));
     const Six expected = series_of_cosine(n, m);
-    ASSERT_LT(relative_difference(t, expected), kAgree)
-        << "case " << i << "\n" << text(t) << "\n" << text(expected);
+    ASSERT_LT(relative_difference(t, expected), kAgree) << "case " << i << "\n"
+                                                        << text(t) << "\n"
+                                                        << text(expected);
     worst = std::max(worst, relative_difference(t, expected));
   }
   RecordProperty("largest_relative_difference", std::to_string(worst * 1e15) + "e-15");
@@ -161,9 +165,9 @@ TEST(NormalExpansion, HoldsAboutACornerAsWellAsAboutTheCentre) {
       const auto per_triangle = [](Six t) {
         return Six{t[0], t[1] * 25, t[2] * 25, t[3] * 625, t[4] * 625, t[5] * 625};
       };
-      EXPECT_LT(relative_difference(per_triangle(six(expansion.infinite(light))),
-                                    per_triangle(series_of_cosine(
-                                        normal, {Vec::Zero(), Vec::Zero(), light}))),
+      EXPECT_LT(relative_difference(
+                    per_triangle(six(expansion.infinite(light))),
+                    per_triangle(series_of_cosine(normal, {Vec::Zero(), Vec::Zero(), light}))),
                 kAgree)
           << "infinite, case " << i << (corner ? " corner" : " centre");
       EXPECT_LT(relative_difference(per_triangle(six(expansion.finite(halfway))),
@@ -184,10 +188,12 @@ TEST(NormalExpansion, DoesNotDependOnTheLengthOfTheNormals) {
     const Vec light = random.unit();
     EXPECT_LT(relative_difference(six(NormalExpansion<double>(scaled).infinite(light)),
                                   six(NormalExpansion<double>(n).infinite(light))),
-              kAgree) << "case " << i << ", times " << k;
+              kAgree)
+        << "case " << i << ", times " << k;
     EXPECT_LT(relative_difference(six(NormalExpansion<double>(scaled).finite(m)),
                                   six(NormalExpansion<double>(n).finite(m))),
-              kAgree) << "case " << i << ", times " << k;
+              kAgree)
+        << "case " << i << ", times " << k;
   }
 }
 
@@ -210,7 +216,8 @@ TEST(Interpolator, ReproducesTheCornersAndWhatIsBetween) {
       EXPECT_NEAR(at(x[v], y[v]), q[v], 1e-14) << "case " << i << ", corner " << v;
     }
     EXPECT_NEAR(at((x[0] + x[1] + x[2]) / 3, (y[0] + y[1] + y[2]) / 3), (q[0] + q[1] + q[2]) / 3,
-                1e-14) << "case " << i;
+                1e-14)
+        << "case " << i;
   }
 }
 

@@ -1,0 +1,98 @@
+// The datapath's parameters: both ends of every range are legal, what lies beyond is refused by key
+// and range, and the formats follow.
+#include "model/fixed/datapath_configuration.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "model/scene/input_error.h"
+
+namespace phongpipe {
+namespace {
+
+std::string refusal(const DatapathConfiguration& configuration) {
+  try {
+    configuration.check();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+struct Range {
+  const char* key;
+  int DatapathConfiguration::*value;
+  int low, high;
+};
+
+class DatapathRange : public testing::TestWithParam<Range> {};
+
+TEST_P(DatapathRange, IsHeldAtBothEnds) {
+  const auto& [key, value, low, high] = GetParam();
+  DatapathConfiguration configuration;
+  for (const int legal : {low, high}) {
+    configuration.*value = legal;
+    EXPECT_EQ(refusal(configuration), "no error") << key << " = " << legal;
+  }
+  for (const int illegal : {low - 1, high + 1, -1000}) {
+    configuration.*value = illegal;
+    const std::string message = refusal(configuration);
+    const std::string what = "datapath." + std::string(key) + " = " + std::to_string(illegal);
+    EXPECT_NE(message.find(what), std::string::npos) << message;
+    EXPECT_NE(message.find(std::to_string(low) + " to " + std::to_string(high)), std::string::npos)
+        << message;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    DatapathConfiguration, DatapathRange,
+    testing::Values(
+        Range{"diffuse_fraction_bits", &DatapathConfiguration::diffuse_fraction_bits, 4, 30},
+        Range{"specular_fraction_bits", &DatapathConfiguration::specular_fraction_bits, 1, 25},
+        Range{"rom_address_bits", &DatapathConfiguration::rom_address_bits, 6, 13},
+        Range{"rom_data_bits", &DatapathConfiguration::rom_data_bits, 4, 12}),
+    [](const auto& range) { return std::string(range.param.key); });
+
+TEST(DatapathConfiguration, HasOneOrThreeChannels) {
+  DatapathConfiguration configuration;
+  for (const int channels : {1, 3}) {
+    configuration.channels = channels;
+    EXPECT_EQ(refusal(configuration), "no error");
+  }
+  for (const int channels : {0, 2, 4}) {
+    configuration.channels = channels;
+    EXPECT_EQ(refusal(configuration),
+              "datapath.channels = " + std::to_string(channels) + ": 1 (grey) or 3 (colour)");
+  }
+}
+
+TEST(DatapathConfiguration, FormatsFollow) {
+  DatapathConfiguration c;
+  c.diffuse_fraction_bits = 16;
+  c.specular_fraction_bits = 12;
+  c.rom_address_bits = 10;
+  EXPECT_EQ(c.diffuse_width(), 26);   // sign, guard, 8, 16
+  EXPECT_EQ(c.specular_width(), 24);  // sign, guard, 10, 12
+  EXPECT_EQ(c.rom_words(), 1024);
+  c.diffuse_fraction_bits = kMaxDiffuseFraction;
+  c.specular_fraction_bits = kMaxSpecularFraction;
+  c.rom_address_bits = kMaxRomAddressBits;
+  EXPECT_EQ(c.diffuse_width(), 40);
+  EXPECT_EQ(c.specular_width(), 40);
+}
+
+// The paper's claim: 2 additions a pixel for diffuse light, 5 for full Phong.
+TEST(DatapathConfiguration, AddsFiveTimesAPixel) {
+  DatapathConfiguration c;
+  EXPECT_EQ(c.series(), 2);
+  EXPECT_EQ(c.adders(), 5);
+  c.gate = GateSource::series;
+  EXPECT_EQ(c.adders(), 7);
+  c.channels = 3;
+  EXPECT_EQ(c.series(), 5);
+  EXPECT_EQ(c.adders(), 13);
+}
+
+}  // namespace
+}  // namespace phongpipe

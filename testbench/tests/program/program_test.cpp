@@ -1,0 +1,250 @@
+// phongpipe from the command line: what it writes, what it says, how it exits.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "model/scene/text_file.h"
+#include "testbench/process.h"
+
+namespace phongpipe {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Program : public ::testing::Test {
+ protected:
+  Program() : folder_(fs::path(::testing::TempDir()) / fmt::format("phongpipe-{}", getpid())) {
+    fs::create_directories(folder_);
+  }
+  ~Program() override { fs::remove_all(folder_); }
+
+  ProcessOutput run(std::vector<std::string> arguments) const {
+    arguments.insert(arguments.begin(), PHONGPIPE_PROGRAM);
+    return run_process(arguments);
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return file(name);
+  }
+  // Bad input: one line that holds `message`, status 2, and nothing written.
+  void expect_refused(const std::vector<std::string>& arguments, const std::string& message) const {
+    const auto files = [this] {
+      return std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+    };
+    const auto before = files();
+    const ProcessOutput output = run(arguments);
+    EXPECT_EQ(output.status, 2) << output.text;
+    EXPECT_NE(output.text.find(message), std::string::npos) << output.text;
+    EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 1) << output.text;
+    EXPECT_EQ(files(), before) << "something was left behind";
+  }
+  nlohmann::json json(const std::string& name) const {
+    return nlohmann::json::parse(read_whole_file(file(name)));
+  }
+
+  fs::path folder_;
+};
+
+class ShippedScene : public Program, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(ShippedScene, PassesWithoutAMismatchInBothDetails) {
+  for (const char* detail : {"span", "cycle"}) {
+    const ProcessOutput output =
+        run({"verify", GetParam(), "--detail", detail, "--json", file("r.json")});
+    EXPECT_EQ(output.status, 0) << output.text;
+    const nlohmann::json result = json("r.json");
+    EXPECT_EQ(result["mismatches"]["model_rtl"], 0);
+    EXPECT_EQ(result["mismatches"]["model_systemc"], 0);
+    EXPECT_EQ(result["cycles"]["difference"], 0);
+    EXPECT_EQ(result["coefficient_overflows"], 0);
+    EXPECT_GT(result["pixels"], 10000);
+    EXPECT_TRUE(result["passed"]);
+  }
+}
+
+TEST_P(ShippedScene, PassesUnderRandomBackPressureWithEqualCycles) {
+  const ProcessOutput output =
+      run({"verify", GetParam(), "--stall", "25", "--seed", "11", "--json", file("r.json")});
+  EXPECT_EQ(output.status, 0) << output.text;
+  EXPECT_EQ(json("r.json")["cycles"]["difference"], 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ShippedScene,
+                         ::testing::Values("teapot", "pawn", "sphere", "torus", "two-planes",
+                                           "screen-triangles", "mesh"),
+                         [](const auto& parameter) {
+                           std::string name = parameter.param;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
+
+TEST_F(Program, VerifyWritesEveryKeyAndThreePictures) {
+  ASSERT_EQ(run({"verify", "sphere", "--out", folder_.string(), "--json", file("r.json")}).status,
+            0);
+  const nlohmann::json result = json("r.json");
+  for (const char* key : {"/scene",
+                          "/configuration",
+                          "/configuration_hash",
+                          "/triangles",
+                          "/pixels",
+                          "/mismatches/model_rtl",
+                          "/mismatches/model_systemc",
+                          "/cycles/frame",
+                          "/cycles/datapath_rtl",
+                          "/cycles/datapath_systemc",
+                          "/cycles/difference",
+                          "/clock_ns",
+                          "/clock_source",
+                          "/ns_per_pixel/datapath",
+                          "/ns_per_pixel/frame",
+                          "/budget_ns",
+                          "/within_budget",
+                          "/accuracy/max_lsb",
+                          "/accuracy/rms_lsb",
+                          "/accuracy/psnr_db",
+                          "/accuracy/over_half",
+                          "/accuracy/over_one",
+                          "/accuracy/over_two",
+                          "/accuracy_split",
+                          "/passed"}) {
+    EXPECT_TRUE(result.contains(nlohmann::json::json_pointer(key))) << key;
+  }
+  for (const char* picture : {"sphere-result.png", "sphere-exact.png", "sphere-error.png"}) {
+    EXPECT_EQ(read_whole_file(file(picture)).substr(1, 3), "PNG") << picture;
+  }
+}
+
+TEST_F(Program, JsonAloneGoesToStandardOutput) {
+  const ProcessOutput output = run({"verify", "sphere", "--json", "-"});
+  EXPECT_TRUE(nlohmann::json::accept(output.text)) << output.text;
+}
+
+TEST_F(Program, SeveralScenesGiveAnArray) {
+  ASSERT_EQ(run({"verify", "sphere", "two-planes", "--json", file("r.json")}).status, 0);
+  EXPECT_EQ(json("r.json").size(), 2U);
+}
+
+TEST_F(Program, OverBudgetFails) {
+  const ProcessOutput output = run({"verify", "sphere", "--budget", "1"});
+  EXPECT_EQ(output.status, 1);
+  EXPECT_NE(output.text.find("OVER the budget of 1 ns"), std::string::npos) << output.text;
+  EXPECT_NE(output.text.find("FAILED"), std::string::npos);
+}
+
+TEST_F(Program, TheHashNamesTheConfiguration) {
+  const auto hash = [this](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"verify", "sphere", "--json", file("r.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments).status, 0);
+    return json("r.json")["configuration_hash"];
+  };
+  EXPECT_EQ(hash({}), hash({"--set", "rom_data_bits=8"}));
+  EXPECT_NE(hash({}), hash({"--set", "queues.spans=9"}));
+  EXPECT_NE(hash({}), hash({"--set", "technology=generic"}));
+}
+
+TEST_F(Program, CoefficientOverflowFailsAndIsCounted) {
+  write("t.csv",
+        "x0,y0,z0,nx0,ny0,nz0,x1,y1,z1,nx1,ny1,nz1,x2,y2,z2,nx2,ny2,nz2\n"
+        "2,2,9,-0.9,-0.3,-0.3162,60,2,9,0.9,-0.3,-0.3162,30,60,2,0,0.95,-0.3122\n");
+  const std::string scene = write("s.toml", R"([image]
+width = 64
+height = 64
+[[light]]
+type = "directional"
+direction = [0.4, 0.5, 1]
+[[object]]
+triangles = "t.csv"
+material = "m"
+[material.m]
+ambient = 0.1
+diffuse = 0.8
+specular = 0.5
+shininess = 10
+)");
+  const ProcessOutput output = run({"verify", scene, "--json", file("r.json")});
+  EXPECT_EQ(output.status, 1) << output.text;
+  EXPECT_EQ(json("r.json")["coefficient_overflows"], 1);
+  EXPECT_EQ(json("r.json")["mismatches"]["model_rtl"], 0);  // all wrap alike
+}
+
+TEST_F(Program, RenderWritesPngPfmAndTriangles) {
+  ASSERT_EQ(
+      run({"render", "sphere", "-o", file("a.png"), "--dump-triangles", file("t.csv")}).status, 0);
+  EXPECT_EQ(read_whole_file(file("t.csv")).substr(0, 9), "x0,y0,z0,");
+  ASSERT_EQ(
+      run({"render", "sphere", "--method", "phong", "--arithmetic", "real", "-o", file("a.pfm")})
+          .status,
+      0);
+  const std::string pfm = read_whole_file(file("a.pfm"));
+  const std::string header = "PF\n256 256\n-1.0\n";
+  EXPECT_EQ(pfm.substr(0, header.size()), header);
+  EXPECT_EQ(pfm.size(), header.size() + 256U * 256 * 3 * 4);
+  EXPECT_EQ(run({"render", "sphere", "--arithmetic", "real", "-o", file("b.png")}).status, 0);
+}
+
+TEST_F(Program, PhongRendersWhatThePipelineDoesNotSimulateYet) {
+  const std::string text = read_whole_file(fs::path(PHONGPIPE_SCENES) / "sphere.toml");
+  const std::string scene =
+      write("two.toml", text + "\n[[light]]\ntype = \"point\"\nposition = [3, 3, 3]\n");
+  EXPECT_EQ(run({"render", scene, "--method", "phong", "-o", file("a.png")}).status, 0);
+  fs::remove(file("a.png"));
+  expect_refused({"render", scene, "-o", file("b.png")}, "several lights are not simulated yet");
+  expect_refused({"verify", scene, "--out", file("pictures")},
+                 "two.toml: several lights are not simulated yet");
+}
+
+TEST_F(Program, BadUsageIsOneLineAndTwo) {
+  expect_refused({}, "subcommand is required");
+  expect_refused({"verify"}, "scenes is required");
+  expect_refused({"verify", "nosuch.toml"}, "nosuch.toml: no such file or scene; there are");
+  expect_refused({"verify", "sphere", "--hardware", "nosuch"}, "paper-1k, paper-8k");
+  expect_refused({"verify", "sphere", "--set", "rom_adress_bits=9"},
+                 "did you mean rom_address_bits");
+  expect_refused({"verify", "sphere", "--set", "rom_address_bits=99"}, "6 to 13");
+  expect_refused({"verify", "sphere", "--set", "rom_address_bits=ten"}, "whole number");
+  expect_refused({"verify", "sphere", "--set", "anchor=pixel"}, "one of triangle, span");
+  expect_refused({"verify", "sphere", "--set", "technology=nosuch"}, "generic, ice40-hx8k");
+  expect_refused({"verify", "sphere", "--budget", "-3"}, "--budget");
+  expect_refused({"verify", "sphere", "--stall", "101"}, "--stall");
+  expect_refused({"verify", "sphere", "--rtl", "/nosuch"}, "--rtl");
+  expect_refused({"render", "sphere"}, "nothing to write");
+  expect_refused({"render", "sphere", "-o", file("a.jpg")}, ".png or .pfm");
+  expect_refused({"render", "sphere", "-o", "/nosuch/a.png"}, "cannot be written");
+  expect_refused(
+      {"render", "sphere", "--method", "phong", "--arithmetic", "fixed", "-o", file("a.png")},
+      "no fixed-point form");
+}
+
+TEST_F(Program, BadFilesAreNamedWithTheirLine) {
+  expect_refused({"verify", write("broken.toml", "[image\n")}, "broken.toml:1:");
+  expect_refused({"verify", write("zero.toml", "[image]\nwidth = 0\nheight = 4\n")},
+                 "zero.toml:2:");
+  const std::string hardware = write("h.toml", "[datapath]\nrom_data_bits = 3\n");
+  expect_refused({"verify", "sphere", "--hardware", hardware}, "h.toml:2:");
+  const std::string unknown = write("u.toml", "[datapath]\nrom_bits = 8\n");
+  expect_refused({"verify", "sphere", "--hardware", unknown}, "u.toml:2:");
+}
+
+TEST_F(Program, HelpHasAnExampleAtEachLevel) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"verify", "--help"}, {"render", "--help"}}) {
+    const ProcessOutput output = run(arguments);
+    EXPECT_EQ(output.status, 0);
+    EXPECT_NE(output.text.find("Example: phongpipe"), std::string::npos) << output.text;
+  }
+}
+
+TEST_F(Program, NoColourAndNoProgressInAPipe) {
+  const ProcessOutput output = run({"verify", "sphere"});
+  EXPECT_EQ(output.text.find('\033'), std::string::npos);
+  EXPECT_EQ(output.text.find('\r'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace phongpipe

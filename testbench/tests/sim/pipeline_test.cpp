@@ -1,0 +1,165 @@
+// The SystemC pipeline over a frame: both of its details give the same pixels in the same cycles,
+// which are those of the model, whatever queues, costs and stalls there are.
+#include "sim/pipeline.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "model/fixed/model_frame.h"
+#include "model/scene/input_error.h"
+#include "sim/datapath_pipeline.h"
+#include "testbench/tests/fixed/random_frame.h"
+#include "testbench/tests/sim/simulations.h"
+
+namespace phongpipe {
+namespace {
+
+void expect_same(const Trace& by_span, const Trace& by_clock) {
+  EXPECT_EQ(by_span.failure, "");
+  EXPECT_EQ(by_clock.failure, "");
+  EXPECT_EQ(by_span.setup_cycles, by_clock.setup_cycles);
+  EXPECT_EQ(by_span.rom_load_cycles, by_clock.rom_load_cycles);
+  EXPECT_EQ(by_span.datapath_cycles, by_clock.datapath_cycles);
+  EXPECT_EQ(by_span.frame_cycles, by_clock.frame_cycles);
+  EXPECT_TRUE(by_span.colors == by_clock.colors);
+  ASSERT_EQ(by_span.stream.size(), by_clock.stream.size());
+  ASSERT_EQ(by_span.cycles.size(), by_clock.cycles.size());
+  for (std::size_t i = 0; i < by_span.stream.size(); ++i) {
+    ASSERT_EQ(by_span.stream[i], by_clock.stream[i]) << "pixel " << i;
+    ASSERT_EQ(by_span.cycles[i], by_clock.cycles[i]) << "pixel " << i;
+  }
+}
+
+void expect_model(const Trace& trace, const ModelFrame& model) {
+  EXPECT_TRUE(trace.stream == model.stream);
+  EXPECT_TRUE(trace.colors == model.colors());
+}
+
+// With and without a ClockedDatapath in place of the closed form by the span.
+void expect_agreement(const FrameSetup& frame, const Geometry& geometry,
+                      const PipelineConfiguration& configuration, SimulationOptions options) {
+  const Trace by_span = simulate_apart(frame, geometry, configuration, options);
+  options.detail = Detail::cycle;
+  const Trace by_clock = simulate_apart(frame, geometry, configuration, options);
+  DatapathPipeline datapath(frame.configuration);
+  options.datapath = &datapath;
+  options.detail = Detail::span;
+  const Trace clocked_by_span = simulate_apart(frame, geometry, configuration, options);
+  ASSERT_FALSE(by_span.stream.empty()) << "nothing is drawn";
+  expect_model(by_span, run_model(frame, geometry));
+  expect_same(by_span, by_clock);
+  expect_same(clocked_by_span, by_clock);
+  EXPECT_EQ(clocked_by_span.busy_cycles, by_clock.busy_cycles);
+}
+
+class OfScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(OfScene, BySpanIsByCycle) {
+  const Scene scene = load_scene(std::string(PHONGPIPE_SCENES "/") + GetParam() + ".toml");
+  const Geometry geometry = make_geometry(scene);
+  DatapathConfiguration datapath;
+  datapath.channels = is_grey(scene, geometry) ? 1 : 3;
+  const FrameSetup frame(scene, geometry, suit_scene(datapath, scene, geometry), 24);
+  SimulationOptions options;
+  expect_agreement(frame, geometry, PipelineConfiguration(), options);
+  options.stall_percent = 20;
+  expect_agreement(frame, geometry, PipelineConfiguration(), options);
+}
+
+std::string scene_name(const testing::TestParamInfo<const char*>& info) {
+  std::string name = info.param;
+  for (char& letter : name) letter = letter == '-' ? '_' : letter;
+  return name;
+}
+INSTANTIATE_TEST_SUITE_P(Pipeline, OfScene,
+                         testing::Values("mesh", "screen-triangles", "sphere", "teapot", "torus",
+                                         "two-planes"),
+                         scene_name);
+
+PipelineConfiguration random_pipeline(Random& random) {
+  PipelineConfiguration c;
+  c.triangle_fifo = random.integer(1, 8);
+  c.span_fifo = random.integer(1, 8);
+  c.pixel_fifo = random.integer(1, 8);
+  c.walker_triangle_cycles = random.integer(1, 4);
+  c.walker_row_cycles = random.integer(1, 4);
+  c.framebuffer_write_cycles = random.integer(1, 4);
+  c.framebuffer_test_cycles = random.integer(1, 4);
+  const auto units = [&random] { return Units{random.integer(1, 16), random.integer(1, 3), 1}; };
+  c.adders = units();
+  c.multipliers = units();
+  c.rsqrt = units();
+  return c;
+}
+
+TEST(Pipeline, BySpanIsByCycleForAnyConfiguration) {
+  const unsigned first_seed = 59;
+  for (unsigned seed = first_seed; seed < first_seed + 40; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Scene scene = lit_scene(96, 64);
+    const Geometry geometry =
+        random_geometry(random, scene, random.integer(1, 40), random.uniform(2, 20));
+    DatapathConfiguration datapath;
+    datapath.rom_address_bits = 6;  // short loads, so that other waits show
+    const FrameSetup frame(scene, geometry, datapath, 24);
+    SimulationOptions options;
+    options.stall_percent = random.integer(0, 1) * random.integer(1, 60);
+    options.stall_seed = seed;
+    expect_agreement(frame, geometry, random_pipeline(random), options);
+    if (HasFailure()) return;
+  }
+}
+
+TEST(Pipeline, AnEmptyFrameTakesNoTime) {
+  const Scene scene = lit_scene(16, 16);
+  const Geometry geometry;
+  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24);
+  for (const Detail detail : {Detail::span, Detail::cycle}) {
+    SimulationOptions options;
+    options.detail = detail;
+    const Trace trace = simulate_apart(frame, geometry, PipelineConfiguration(), options);
+    EXPECT_EQ(trace.failure, "");
+    EXPECT_EQ(trace.frame_cycles, 0);
+    EXPECT_TRUE(trace.stream.empty());
+  }
+}
+
+TEST(Pipeline, EachChangeOfMaterialLoadsItsTable) {
+  Random random(61);
+  const Scene scene = lit_scene(64, 64);
+  Geometry geometry = random_geometry(random, scene, 5, 15);
+  const std::array<std::uint32_t, 5> materials = {1, 1, 0, 0, 1};
+  for (std::size_t i = 0; i < 5; ++i) geometry.triangles[i].material = materials[i];
+  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24);
+  for (const Detail detail : {Detail::span, Detail::cycle}) {
+    SimulationOptions options;
+    options.detail = detail;
+    const Trace trace = simulate_apart(frame, geometry, PipelineConfiguration(), options);
+    EXPECT_EQ(trace.rom_load_cycles, 3 * 1024);
+    EXPECT_GT(trace.datapath_cycles, 3 * 1024);
+  }
+}
+
+TEST(Pipeline, SimulatesOnceAProcess) {
+  Random random(67);
+  const Scene scene = lit_scene(16, 16);
+  const Geometry geometry = random_geometry(random, scene, 1, 5);
+  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24);
+  Child child([&] {
+    simulate(frame, geometry, PipelineConfiguration(), {});
+    try {
+      simulate(frame, geometry, PipelineConfiguration(), {});
+    } catch (const std::logic_error& error) {
+      return std::string("refused: ") + error.what();
+    }
+    return std::string("simulated twice");
+  });
+  const std::string outcome = child.get();
+  EXPECT_EQ(outcome.rfind("refused: SystemC elaborates once", 0), 0U) << outcome;
+}
+
+}  // namespace
+}  // namespace phongpipe

@@ -1,0 +1,128 @@
+// The closed form of time between pixel_datapath and framebuffer, against the clocked datapath, a
+// registered queue and a framebuffer executed clock by clock.
+#include "sim/pixel_timing.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+#include <vector>
+
+#include "sim/datapath_pipeline.h"
+#include "testbench/tests/fixed/random_frame.h"
+
+namespace phongpipe {
+namespace {
+
+constexpr unsigned kSeed = 47;
+
+struct Arrival {
+  int length;
+  Cycle asked;               // from which the span may enter
+  std::vector<Cycle> costs;  // of each pixel, in the framebuffer
+};
+
+struct Times {
+  std::vector<Cycle> in;   // of each span
+  std::vector<Cycle> out;  // of each pixel
+  Cycle end = 0;
+};
+
+Times closed_form(const std::vector<Arrival>& arrivals, int depth) {
+  Times times;
+  PixelTiming timing(depth);
+  for (const Arrival& arrival : arrivals) {
+    std::vector<Cycle> cycles = arrival.costs;
+    times.in.push_back(timing.next(arrival.asked, cycles.size(), cycles.data()));
+    times.out.insert(times.out.end(), cycles.begin(), cycles.end());
+    EXPECT_EQ(timing.out(), cycles.back());
+  }
+  times.end = timing.end();
+  return times;
+}
+
+Times clock_by_clock(const std::vector<Arrival>& arrivals, int depth) {
+  Times times;
+  DatapathConfiguration configuration;
+  DatapathPipeline datapath(configuration);
+  MaterialSetup material = {};
+  material.roms.emplace_back(configuration, 0.5, 20);
+  DatapathInputs load;
+  load.material = &material;
+  load.rom_write = true;
+  load.rom_address = configuration.rom_words() - 1;
+  datapath.clock(load);
+
+  std::vector<Cycle> costs;
+  for (const Arrival& arrival : arrivals) {
+    costs.insert(costs.end(), arrival.costs.begin(), arrival.costs.end());
+  }
+  std::size_t read = 0, queued = 0;  // pixels the framebuffer has read; that wait for it
+  Cycle busy = 0;
+  for (Cycle cycle = 0; read < costs.size(); ++cycle) {
+    const bool full = queued == static_cast<std::size_t>(depth), empty = queued == 0;
+    Span span;
+    DatapathInputs inputs;
+    inputs.material = &material;
+    inputs.pixel_ready = !full;
+    const std::size_t next = times.in.size();
+    if (next < arrivals.size() && arrivals[next].asked <= cycle) {
+      span.row = {0, 0, arrivals[next].length};
+      inputs.span = &span;
+    }
+    const DatapathOutputs outputs = datapath.clock(inputs);
+    if (inputs.span != nullptr && outputs.span_ready) times.in.push_back(cycle);
+    if (outputs.pixel_valid && !full) {
+      times.out.push_back(cycle);
+      ++queued;
+    }
+    if (busy > 0) --busy;
+    if (busy > 0 || empty) continue;
+    busy = costs[read++];
+    --queued;
+    times.end = cycle + busy;
+  }
+  return times;
+}
+
+void expect_same_times(const std::vector<Arrival>& arrivals, int depth) {
+  const Times fast = closed_form(arrivals, depth), slow = clock_by_clock(arrivals, depth);
+  EXPECT_EQ(fast.in, slow.in);
+  EXPECT_EQ(fast.out, slow.out);
+  EXPECT_EQ(fast.end, slow.end);
+}
+
+TEST(PixelTiming, IsThatOfEveryClock) {
+  SCOPED_TRACE(kSeed);
+  Random random(kSeed);
+  for (int i = 0; i < 500; ++i) {
+    std::vector<Arrival> arrivals;
+    const int spans = random.integer(1, 30), longest = random.integer(1, 20);
+    const int pause = random.integer(0, 30), dearest = random.integer(1, 6);
+    Cycle asked = 0;
+    for (int k = 0; k < spans; ++k) {
+      Arrival arrival;
+      arrival.length = random.integer(1, longest);
+      arrival.asked = asked += random.integer(0, pause);
+      for (int p = 0; p < arrival.length; ++p) arrival.costs.push_back(random.integer(1, dearest));
+      arrivals.push_back(arrival);
+    }
+    const int depth = random.integer(1, 20);
+    expect_same_times(arrivals, depth);
+    if (testing::Test::HasFailure()) FAIL() << "case " << i << ", queue of " << depth;
+  }
+}
+
+TEST(PixelTiming, ByHand) {
+  PixelTiming timing(2);
+  std::vector<Cycle> cycles = {1, 100, 1, 1, 1};  // in the framebuffer
+  EXPECT_EQ(timing.next(10, 5, cycles.data()), 10);
+  const Cycle first = 10 + kDatapathLatency;
+  // The framebuffer reads the first in the clock after it left, for one clock; the second for 100.
+  // Two pixels wait meanwhile, and the fifth leaves in the clock after the third is read.
+  const Cycle third_read = first + 2 + 100;
+  EXPECT_EQ(cycles, (std::vector<Cycle>{first, first + 1, first + 2, first + 3, third_read + 1}));
+  EXPECT_EQ(timing.end(), third_read + 3);
+}
+
+}  // namespace
+}  // namespace phongpipe

@@ -1,0 +1,89 @@
+// A pipeline that is stuck is stopped, and says where: a datapath that never takes a span, and one
+// that loses pixels.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sim/datapath_pipeline.h"
+#include "sim/pipeline.h"
+#include "testbench/tests/fixed/random_frame.h"
+#include "testbench/tests/sim/simulations.h"
+
+namespace phongpipe {
+namespace {
+
+class NeverReady : public ClockedDatapath {
+ public:
+  void reset() override {}
+  DatapathOutputs clock(const DatapathInputs&) override { return {}; }
+};
+
+// Takes spans and gives nothing back.
+class Swallowing : public ClockedDatapath {
+ public:
+  void reset() override {}
+  DatapathOutputs clock(const DatapathInputs&) override { return {true, false, {}}; }
+};
+
+class Watchdog : public testing::TestWithParam<Detail> {
+ protected:
+  // The pipeline's failure; at most one simulation a process.
+  std::string failure(ClockedDatapath* datapath, std::int64_t watchdog_cycles,
+                      int framebuffer_cycles = 1) const {
+    Random random(71);
+    const Scene scene = lit_scene(64, 64);
+    const Geometry geometry = random_geometry(random, scene, 30, 15);
+    DatapathConfiguration configuration;
+    configuration.rom_address_bits = 6;
+    const FrameSetup frame(scene, geometry, configuration, 24);
+    PipelineConfiguration pipeline;
+    pipeline.span_fifo = 5;
+    pipeline.framebuffer_write_cycles = pipeline.framebuffer_test_cycles = framebuffer_cycles;
+    SimulationOptions options;
+    options.detail = GetParam();
+    options.datapath = datapath;
+    options.watchdog_cycles = watchdog_cycles;
+    return simulate_apart(frame, geometry, pipeline, options).failure;
+  }
+};
+
+void expect_told(const std::string& failure, const std::string& what) {
+  EXPECT_NE(failure.find(what), std::string::npos) << "no \"" << what << "\" in: " << failure;
+}
+
+TEST_P(Watchdog, ReportsADatapathThatIsNeverReady) {
+  NeverReady datapath;
+  const std::string message = failure(&datapath, 3000);
+  expect_told(message, "nothing has moved for 3000 cycles");
+  expect_told(message, "span queue 5 of 5");
+  expect_told(message, "framebuffer");
+  if (GetParam() == Detail::cycle) {
+    expect_told(message, "triangle queue 4 of 4");
+    expect_told(message, "pixel queue 0 of 16");
+    expect_told(message, "span_walker waiting");
+  }
+}
+
+TEST_P(Watchdog, ReportsADatapathThatLosesPixels) {
+  Swallowing datapath;
+  const std::string message = failure(&datapath, 3000);
+  expect_told(message, "nothing has moved for 3000 cycles");
+  expect_told(message, "pixels in");
+}
+
+TEST_P(Watchdog, LeavesASlowPipelineAlone) {
+  DatapathPipeline datapath([] {
+    DatapathConfiguration configuration;
+    configuration.rom_address_bits = 6;
+    return configuration;
+  }());
+  EXPECT_EQ(failure(&datapath, 3000, 1000), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipeline, Watchdog, testing::Values(Detail::span, Detail::cycle),
+                         [](const testing::TestParamInfo<Detail>& info) {
+                           return info.param == Detail::span ? "BySpan" : "ByCycle";
+                         });
+
+}  // namespace
+}  // namespace phongpipe
