@@ -45,7 +45,7 @@ Accuracy measure_accuracy(const Scene& scene, const Geometry& geometry, const Fr
       accuracy.output.add(links.output[c] - links.table[c]);
       accuracy.total.add(links.output[c] - links.exact[c]);
       largest = std::max(largest, std::fabs(links.output[c] - links.exact[c]));
-      exact[c] = static_cast<std::uint8_t>(links.exact[c] + 0.5);
+      exact[c] = static_cast<std::uint8_t>(std::lround(links.exact[c]));
     }
     const Rgb color = error_color(largest);
     std::copy(color.begin(), color.end(), accuracy.error_picture.pixel(links.index));

@@ -28,7 +28,7 @@ const Installation& installation() {
 
 fs::path find_named(const std::string& name, const fs::path& folder, const std::string& what) {
   if (fs::exists(name)) return name;
-  const fs::path candidate = folder / (name + ".toml");
+  fs::path candidate = folder / (name + ".toml");
   if (fs::is_regular_file(candidate)) return candidate;
   std::vector<std::string> known;
   for (const auto& entry : fs::directory_iterator(folder)) {

@@ -65,7 +65,7 @@ Picture picture_of(const std::vector<Color>& colors, int width, int height, int 
   picture.bytes.reserve(colors.size() * static_cast<std::size_t>(channels));
   for (const Color& color : colors) {
     for (int c = 0; c < channels; ++c) {
-      picture.bytes.push_back(static_cast<std::uint8_t>(color[c] + 0.5));
+      picture.bytes.push_back(static_cast<std::uint8_t>(std::lround(color[c])));
     }
   }
   return picture;
@@ -80,8 +80,8 @@ Rgb error_color(double error) {
   const double weight = at - static_cast<double>(stop);
   Rgb color{};
   for (std::size_t c = 0; c < 3; ++c) {
-    color[c] = static_cast<std::uint8_t>(kStops[stop][c] * (1 - weight) +
-                                         kStops[stop + 1][c] * weight + 0.5);
+    color[c] = static_cast<std::uint8_t>(
+        std::lround(kStops[stop][c] * (1 - weight) + kStops[stop + 1][c] * weight));
   }
   return color;
 }

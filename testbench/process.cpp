@@ -72,6 +72,7 @@ constexpr char kResult = 'r', kException = 'e';
 
 ProcessOutput run_process(const std::vector<std::string>& command) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const Pipe output = make_pipe();

@@ -77,7 +77,7 @@ Pixel expansion_pixel(const ScreenTriangle& triangle, const std::vector<RowSpan>
   // Three times the centroid, so that all is whole.
   const std::int64_t x3 = std::int64_t{v[0].x} + v[1].x + v[2].x;
   const std::int64_t y3 = std::int64_t{v[0].y} + v[1].y + v[2].y;
-  const int nearest_x = static_cast<int>(floor_divide(x3, 3 * kSubpixels));
+  const int nearest_x = static_cast<int>(floor_divide(x3, std::int64_t{3} * kSubpixels));
   Pixel best;
   std::int64_t best_distance = -1;
   for (const RowSpan& row : rows) {

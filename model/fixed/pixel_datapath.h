@@ -32,7 +32,7 @@ class PixelDatapath {
   // rounded up to a multiple of kLanes; what lies behind the length is overwritten with rubbish.
   static constexpr int kLanes = 8;
   static std::size_t padded(int length) {
-    return static_cast<std::size_t>((length + kLanes - 1) / kLanes * kLanes);
+    return (static_cast<std::size_t>(length) + kLanes - 1) / kLanes * kLanes;
   }
   void shade(const Span& span, std::uint32_t* colors) const;
 

@@ -1,5 +1,6 @@
 #include "model/scene/ply_check.h"
 
+#include <cstdint>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -121,7 +122,8 @@ class PlyChecker {
           fail(fmt::format("{}: list length {} is negative", item_, count));
         }
         const bool indices = property.name == "vertex_indices" || property.name == "vertex_index";
-        for (double i = 0; i < count; ++i) {
+        const auto length = static_cast<std::uint64_t>(count);
+        for (std::uint64_t i = 0; i < length; ++i) {
           const double value = read(property.type);
           if (indices && (value < 0 || value >= static_cast<double>(vertices_))) {
             fail(fmt::format("{} refers to vertex {}, but the file has {} (counted from 0)", item_,

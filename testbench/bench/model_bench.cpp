@@ -1,36 +1,71 @@
-// The bit-accurate model against double-precision Phong, on the spans of the pawn, one core.
+// The bit-accurate model against double-precision Phong, one core: on spans of the pawn, and on
+// spans of 64 pixels that start where they do. Every 64th triangle, so that spans are in the cache,
+// as they are when they come from the span walker.
 #include <benchmark/benchmark.h>
 
-#include "model/shading/phong.h"
+#include <cmath>
+
+#include "model/shading/methods/shading_method.h"
 #include "testbench/bench/pawn_frame.h"
 
 namespace phongpipe {
 namespace {
 
-void count_pixels(benchmark::State& state) {
-  state.SetItemsProcessed(state.iterations() * pawn().pixels);
+constexpr int kOwnLength = 0;
+
+std::vector<Span> spans_of_length(std::int64_t length) {
+  std::vector<Span> spans;
+  for (Span span : pawn().spans()) {
+    if (span.triangle % 64 != 0) continue;
+    if (length != kOwnLength) span.row.length = static_cast<int>(length);
+    spans.push_back(span);
+  }
+  return spans;
 }
 
+void count_pixels(benchmark::State& state, const std::vector<Span>& spans) {
+  std::int64_t pixels = 0;
+  for (const Span& span : spans) pixels += span.row.length;
+  state.SetItemsProcessed(state.iterations() * pixels);
+}
+
+// Normals stepped by differences, normalised and raised to the power at each pixel, one channel.
 void phong_in_double(benchmark::State& state) {
-  const std::vector<Span> spans = pawn().spans();
+  const std::vector<Span> spans = spans_of_length(state.range(0));
   const PawnFrame& frame = pawn();
-  std::vector<PhongTriangle> triangles;
+  const Material& material = frame.geometry.materials.front();
+  const Power power(PowerKind::exact, material.shininess);
+  const ShadingMethod& method = *find_shading_method("phong");
+  std::vector<std::unique_ptr<TriangleShader>> triangles;
   for (const ScreenTriangle& triangle : frame.geometry.triangles) {
-    triangles.emplace_back(frame.scene, frame.geometry.materials[triangle.material], triangle);
+    const auto [x, y] = centroid_pixel(triangle);
+    triangles.push_back(method.create({frame.scene, material, triangle, power, x, y}));
   }
-  std::vector<Color> colors(4096);
+  const double ambient = 255 * material.ambient[0] * frame.scene.shading.ambient_light[0];
+  const double diffuse = 255 * material.diffuse[0], specular = 255 * material.specular[0];
+  std::vector<Reflection<double>> reflections(4096);
+  std::vector<double> colors(4096);
   for (auto _ : state) {
     for (const Span& span : spans) {
-      triangles[span.triangle].shade(span.row.x, span.row.y, span.row.length, colors.data());
+      const RowSpan row = span.row;
+      triangles[span.triangle]->reflect(row.x, row.y, row.length, reflections.data());
+      for (std::size_t i = 0; i < static_cast<std::size_t>(row.length); ++i) {
+        const Reflection<double>& r = reflections[i];
+        colors[i] = ambient;
+        if (r.diffuse > 0) {
+          colors[i] += diffuse * r.diffuse +
+                       specular * std::pow(std::max(0.0, r.highlight), material.shininess);
+        }
+      }
       benchmark::DoNotOptimize(colors.data());
       benchmark::ClobberMemory();
     }
   }
-  count_pixels(state);
+  count_pixels(state, spans);
 }
 
 void model(benchmark::State& state, Evaluation evaluation) {
-  const std::vector<Span> spans = pawn().spans();
+  const std::vector<Span> spans = spans_of_length(state.range(0));
   PixelDatapath datapath(pawn().frame.configuration, evaluation);
   datapath.load_material(pawn().material());
   std::vector<std::uint32_t> colors(4096 + PixelDatapath::kLanes);
@@ -41,13 +76,16 @@ void model(benchmark::State& state, Evaluation evaluation) {
       benchmark::ClobberMemory();
     }
   }
-  count_pixels(state);
+  count_pixels(state, spans);
 }
 
-BENCHMARK(phong_in_double)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(model, stepping, Evaluation::stepping)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(model, portable, Evaluation::portable)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(model, best, best_evaluation())->Unit(benchmark::kMillisecond);
+void lengths(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Arg(kOwnLength)->Arg(64)->Unit(benchmark::kMillisecond);
+}
+BENCHMARK(phong_in_double)->Apply(lengths);
+BENCHMARK_CAPTURE(model, stepping, Evaluation::stepping)->Apply(lengths);
+BENCHMARK_CAPTURE(model, portable, Evaluation::portable)->Apply(lengths);
+BENCHMARK_CAPTURE(model, best, best_evaluation())->Apply(lengths);
 
 }  // namespace
 }  // namespace phongpipe
