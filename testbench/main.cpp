@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
       "Example: phongpipe verify testbench/scenes/teapot.toml --out out\n");
   phongpipe::Run run;
   phongpipe::add_render(application, run);
+  phongpipe::add_compare(application, run);
   phongpipe::add_verify(application, run);
   constexpr int kBadInput = 2;
   try {

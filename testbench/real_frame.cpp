@@ -1,72 +1,68 @@
 #include "testbench/real_frame.h"
 
-#include <limits>
-
-#include "model/fixed/coverage.h"
+#include "model/fixed/constants.h"
 #include "model/scene/input_error.h"
 #include "model/shading/phong.h"
-#include "testbench/error_chain.h"
 
 namespace phongpipe {
 namespace {
 
-std::vector<Color> background(const Scene& scene) {
-  const auto pixels =
-      static_cast<std::size_t>(scene.image.width) * static_cast<std::size_t>(scene.image.height);
-  return std::vector<Color>(pixels, scene.image.background * kOutputMax);
-}
-
-Linear<double> depth_of(const ScreenTriangle& triangle) {
-  const auto& v = triangle.vertices;
-  const auto pixels = [](std::int32_t q) { return q / static_cast<double>(kSubpixels); };
-  const Interpolator<double> interpolate({pixels(v[0].x), pixels(v[1].x), pixels(v[2].x)},
-                                         {pixels(v[0].y), pixels(v[1].y), pixels(v[2].y)});
-  return interpolate(v[0].z, v[1].z, v[2].z);
-}
-
-}  // namespace
-
-std::vector<Color> render_phong(const Scene& scene, const Geometry& geometry) {
-  if (scene.depth_cue) {
-    throw InputError(scene.file, 0, "depth cueing is not rendered yet; leave [depth_cue] out");
-  }
-  std::vector<Color> colors = background(scene);
-  std::vector<double> depths(colors.size(), std::numeric_limits<double>::infinity());
-  std::vector<RowSpan> rows;
+// Calls shader_of(triangle) for each triangle that covers a pixel, its shade(x, y, length, colors)
+// for each row, and keeps the colours of what is seen.
+template <typename ShaderOf>
+std::vector<Color> render(const Scene& scene, const Geometry& geometry,
+                          const Visibility& visibility, ShaderOf shader_of) {
+  std::vector<Color> colors(visibility.seen.size(), scene.image.background * kOutputMax);
   std::vector<Color> row_colors;
-  for (const ScreenTriangle& triangle : geometry.triangles) {
-    cover(triangle, scene.image.width, scene.image.height, rows);
-    if (rows.empty()) continue;
-    const Linear<double> depth = depth_of(triangle);
-    const PhongTriangle phong(scene, geometry.materials[triangle.material], triangle);
-    for (const RowSpan& row : rows) {
+  for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+    if (visibility.rows[t].empty()) continue;
+    auto&& shader = shader_of(t);
+    for (const RowSpan& row : visibility.rows[t]) {
       row_colors.resize(std::max(row_colors.size(), static_cast<std::size_t>(row.length)));
-      phong.shade(row.x, row.y, row.length, row_colors.data());
-      const std::size_t first =
-          static_cast<std::size_t>(row.y) * static_cast<std::size_t>(scene.image.width) +
-          static_cast<std::size_t>(row.x);
+      shader.shade(row.x, row.y, row.length, row_colors.data());
+      const std::size_t first = visibility.index(row.x, row.y);
       for (std::size_t i = 0; i < static_cast<std::size_t>(row.length); ++i) {
-        const double z =
-            depth.a * (row.x + static_cast<double>(i) + 0.5) + depth.b * (row.y + 0.5) + depth.c;
-        if (z >= depths[first + i]) continue;
-        depths[first + i] = z;
-        colors[first + i] = row_colors[i];
+        if (visibility.seen[first + i] == t) colors[first + i] = row_colors[i];
       }
     }
   }
   return colors;
 }
 
-std::vector<Color> render_taylor(const Scene& scene, const Geometry& geometry,
-                                 const FrameSetup& frame) {
-  std::vector<Color> colors = background(scene);
-  const ModelFrame model = run_model(frame, geometry);
-  for_each_visible_pixel(scene, geometry, frame, model, [&](const ErrorChain& links) {
-    colors[links.index] = links.polynomial;
-    if (frame.configuration.channels == 1)
-      colors[links.index] = Color::Constant(links.polynomial[0]);
+}  // namespace
+
+std::vector<Color> render_phong(const Scene& scene, const Geometry& geometry,
+                                const Visibility& visibility) {
+  if (scene.depth_cue) {
+    throw InputError(scene.file, 0, "depth cueing is not rendered yet; leave [depth_cue] out");
+  }
+  return render(scene, geometry, visibility, [&](std::uint32_t t) {
+    const ScreenTriangle& triangle = geometry.triangles[t];
+    return PhongTriangle(scene, geometry.materials[triangle.material], triangle);
   });
-  return colors;
+}
+
+MethodFrame render_method(const Scene& scene, const Geometry& geometry,
+                          const Visibility& visibility, const ShadingMethod& method,
+                          PowerKind power) {
+  std::vector<Power> powers;
+  for (const Material& material : geometry.materials)
+    powers.emplace_back(power, material.shininess);
+  MethodFrame frame;
+  std::unique_ptr<TriangleShader> shader;
+  const auto count_exact = [&] {
+    if (shader) frame.exact_spans += static_cast<std::size_t>(shader->exact_spans());
+  };
+  frame.colors = render(scene, geometry, visibility, [&](std::uint32_t t) -> TriangleShader& {
+    const ScreenTriangle& triangle = geometry.triangles[t];
+    const Pixel origin = expansion_pixel(triangle, visibility.rows[t]);
+    count_exact();
+    shader = method.create({scene, geometry.materials[triangle.material], triangle,
+                            powers[triangle.material], origin.x, origin.y});
+    return *shader;
+  });
+  count_exact();
+  return frame;
 }
 
 }  // namespace phongpipe

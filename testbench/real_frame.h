@@ -4,15 +4,23 @@
 
 #include <vector>
 
-#include "model/fixed/frame_setup.h"
+#include "model/shading/methods/shading_method.h"
+#include "testbench/visibility.h"
 
 namespace phongpipe {
 
-// Exact Phong shading of everything the scene format describes; depth test in double precision.
-std::vector<Color> render_phong(const Scene& scene, const Geometry& geometry);
+// Exact Phong shading of everything the scene format describes but depth cueing.
+std::vector<Color> render_phong(const Scene& scene, const Geometry& geometry,
+                                const Visibility& visibility);
 
-// The paper's second-degree series with exact powers, gated and hidden as the pipeline does it.
-std::vector<Color> render_taylor(const Scene& scene, const Geometry& geometry,
-                                 const FrameSetup& frame);
+struct MethodFrame {
+  std::vector<Color> colors;
+  std::size_t exact_spans = 0;  // that the method left to exact Phong, its own form degenerating
+};
+
+// By a shading method that does not refuse the scene (see refusal).
+MethodFrame render_method(const Scene& scene, const Geometry& geometry,
+                          const Visibility& visibility, const ShadingMethod& method,
+                          PowerKind power);
 
 }  // namespace phongpipe

@@ -144,15 +144,13 @@ void write_pictures(const Verification& v, const ModelFrame& model, const FrameS
 }  // namespace
 
 double Verification::datapath_ns() const {
-  return pixels == 0 ? 0
-                     : hardware.clock_ns() * static_cast<double>(rtl.datapath_busy_cycles) /
-                           static_cast<double>(pixels);
+  return hardware.clock_ns() * static_cast<double>(rtl.datapath_busy_cycles) /
+         static_cast<double>(pixels);
 }
 
 double Verification::frame_ns() const {
-  return pixels == 0 ? 0
-                     : hardware.clock_ns() * static_cast<double>(systemc.frame_cycles) /
-                           static_cast<double>(pixels);
+  return hardware.clock_ns() * static_cast<double>(systemc.frame_cycles) /
+         static_cast<double>(pixels);
 }
 
 bool Verification::same_cycles() const {
@@ -201,6 +199,9 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
   v.triangles_set_up = model.triangles_set_up;
   v.coefficient_overflows = model.coefficient_overflows;
   v.pixels = model.stream.size();
+  if (v.pixels == 0) {
+    throw InputError(file, 0, "nothing of the scene covers a pixel; look at the camera and the objects");
+  }
   for (std::size_t i = 0; i < model.framebuffer.size(); ++i) {
     v.visible_pixels += model.framebuffer.covered(i);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "model/fixed/constants.h"
+#include "model/shading/quadratics/series_fit.h"
 
 namespace phongpipe {
 
@@ -32,6 +33,8 @@ struct DatapathConfiguration {
   IndexRounding index_rounding = IndexRounding::nearest;
   GateSource gate = GateSource::diffuse;
   Anchor anchor = Anchor::span;
+  // What setup makes of a triangle. No register or adder depends on it.
+  SeriesFit series_fit = SeriesFit::taylor;
 
   // Two's complement: sign, guard, integer, fraction. Overflow wraps.
   // Diffuse (and gate) series: s(1 + kGuardBits + kOutputBits).(diffuse_fraction_bits), in output

@@ -47,6 +47,7 @@ MaterialSetup set_up_material(const Scene& scene, const Material& material,
   setup.light.halfway = halfway.norm() > 0 ? Vec3(halfway.normalized()) : Vec3(Vec3::Zero());
   setup.light.specular_scale = configuration.rom_words();
   setup.light.gate_scale = kOutputMax;
+  setup.light.sharpness = std::max(0.0, material.shininess - 1);
   for (int c = 0; c < configuration.channels; ++c) {
     const auto channel = static_cast<std::size_t>(c);
     setup.light.diffuse_scale[channel] = kOutputMax * material.diffuse[c] * light.color[c];
@@ -93,6 +94,7 @@ FrameSetup::FrameSetup(const Scene& scene, const Geometry& geometry,
   plan.channels = configuration.channels;
   plan.local_viewer = scene.shading.viewer == Viewer::local;
   plan.gate_series = configuration.gate == GateSource::series;
+  plan.fit = configuration.series_fit;
   for (const Material& material : geometry.materials) {
     materials.push_back(set_up_material(scene, material, configuration));
   }

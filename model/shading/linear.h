@@ -40,6 +40,10 @@ class Interpolator {
     return result;
   }
 
+  // The barycentric coordinates of corners 1 and 2.
+  Linear<T> coordinate_1() const { return {y20_, -x20_, x20_ * y0_ - y20_ * x0_}; }
+  Linear<T> coordinate_2() const { return {-y10_, x10_, y10_ * x0_ - x10_ * y0_}; }
+
  private:
   T x0_, y0_, x10_, y10_, x20_, y20_;
 };

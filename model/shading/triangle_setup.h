@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "model/shading/taylor.h"
+#include "model/shading/quadratics/cosine_series.h"
 
 namespace phongpipe {
 
@@ -13,6 +13,7 @@ struct SeriesPlan {
   int channels = 1;
   bool local_viewer = false;
   bool gate_series = false;
+  SeriesFit fit = SeriesFit::taylor;
 };
 
 template <typename T>
@@ -29,6 +30,7 @@ struct LightInput {
   Vector3<T> halfway;   // unit; read for a viewer at infinity only
   std::array<T, 3> diffuse_scale;
   T specular_scale;
+  T sharpness;  // shininess − 1, at least 0; read by the fits that weigh a highlight
   T gate_scale;
 };
 
@@ -44,19 +46,10 @@ template <typename T>
 TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInput<T>& triangle,
                                        const LightInput<T>& light) {
   const Interpolator<T> interpolate(triangle.x, triangle.y);
-  const auto& n = triangle.normal;
-  const NormalExpansion<T> expansion(interpolate(n[0], n[1], n[2]));
-
   TriangleCoefficients<T> result;
   result.depth = interpolate(triangle.z[0], triangle.z[1], triangle.z[2]);
 
-  const Quadratic<T> n_dot_l = expansion.infinite(light.to_light);
-  for (int c = 0; c < plan.channels; ++c) {
-    const auto channel = static_cast<std::size_t>(c);
-    result.diffuse[channel] = n_dot_l.scaled(light.diffuse_scale[channel]);
-  }
-  if (plan.gate_series) result.gate = n_dot_l.scaled(light.gate_scale);
-
+  CosineSeries<T> series;
   if (plan.local_viewer) {
     // The paper's H = E + L, with E interpolated between unit vectors.
     std::array<Vector3<T>, 3> halfway;
@@ -64,11 +57,18 @@ TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInp
       const Vector3<T>& e = triangle.eye[i];
       halfway[i] = e * rsqrt(e.dot(e)) + light.to_light;
     }
-    result.specular = expansion.finite(interpolate(halfway[0], halfway[1], halfway[2]))
-                          .scaled(light.specular_scale);
+    series = fit_series(plan.fit, interpolate, triangle.normal, light.to_light, halfway,
+                        light.sharpness);
   } else {
-    result.specular = expansion.infinite(light.halfway).scaled(light.specular_scale);
+    series = fit_series(plan.fit, interpolate, triangle.normal, light.to_light, light.halfway,
+                        light.sharpness);
   }
+  for (int c = 0; c < plan.channels; ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    result.diffuse[channel] = series.light.scaled(light.diffuse_scale[channel]);
+  }
+  if (plan.gate_series) result.gate = series.light.scaled(light.gate_scale);
+  result.specular = series.highlight.scaled(light.specular_scale);
   return result;
 }
 

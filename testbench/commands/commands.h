@@ -12,6 +12,7 @@ namespace phongpipe {
 
 using Run = std::function<int()>;  // the exit status: 0 all holds, 1 a check failed
 
+void add_compare(CLI::App& application, Run& run);
 void add_render(CLI::App& application, Run& run);
 void add_verify(CLI::App& application, Run& run);
 

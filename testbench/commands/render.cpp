@@ -1,14 +1,12 @@
 // phongpipe render: one picture, in real or fixed arithmetic.
 #include <fmt/format.h>
 
-#include <fstream>
 #include <memory>
 #include <sstream>
 
-#include "model/fixed/coverage.h"
 #include "model/fixed/model_frame.h"
 #include "model/scene/input_error.h"
-#include "model/shading/phong.h"
+#include "model/scene/spelling.h"
 #include "testbench/commands/commands.h"
 #include "testbench/hardware.h"
 #include "testbench/pictures.h"
@@ -19,27 +17,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Method { phong, taylor };
 enum class Arithmetic { real, fixed };
+
+// What the pipeline computes, and the method whose setup it has.
+constexpr const char* kPipelineMethod = "taylor";
 
 struct Options {
   std::string scene;
   fs::path output, triangles;
   HardwareOptions hardware;
-  Method method = Method::taylor;
+  std::string method = kPipelineMethod;
   std::optional<Arithmetic> arithmetic;
 };
 
-bool is_pfm(const fs::path& file) {
-  return file.extension() == ".pfm";
+const ShadingMethod& method_of(const std::string& name) {
+  if (const ShadingMethod* method = find_shading_method(name)) return *method;
+  std::vector<std::string> known;
+  for (const ShadingMethod& method : shading_methods()) known.emplace_back(method.name);
+  const std::string close = closest_word(name, known);
+  throw InputError(fmt::format("--method {}: no such method; {}", name,
+                               close.empty() ? "`phongpipe render --help` lists them"
+                                             : fmt::format("did you mean {}?", close)));
 }
 
-int render(const Options& options) {
-  const Arithmetic arithmetic = options.arithmetic.value_or(
-      options.method == Method::phong ? Arithmetic::real : Arithmetic::fixed);
-  if (options.method == Method::phong && arithmetic == Arithmetic::fixed) {
+void check(const Options& options, Arithmetic arithmetic) {
+  if (arithmetic == Arithmetic::fixed && options.method != kPipelineMethod) {
     throw InputError(
-        "exact Phong has no fixed-point form; use --arithmetic real, or --method taylor");
+        fmt::format("{} has no fixed-point form; use --arithmetic real, or --method {}",
+                    options.method, kPipelineMethod));
   }
   if (options.output.empty() && options.triangles.empty()) {
     throw InputError(
@@ -50,49 +55,67 @@ int render(const Options& options) {
     throw InputError(
         fmt::format("{}: pictures are written as .png or .pfm", options.output.string()));
   }
+}
+
+// The bits of the hardware, as colours in LSB.
+std::vector<Color> render_fixed(const Options& options, const Scene& scene,
+                                const Geometry& geometry) {
+  Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
+  suit_scene(hardware, scene, geometry);
+  const FrameSetup frame(scene, geometry, hardware.datapath, hardware.pipeline.depth_bits);
+  const ModelFrame model = run_model(frame, geometry);
+  if (model.coefficient_overflows > 0) {
+    fmt::print(stderr, "warning: {} triangles have values that do not fit their registers\n",
+               model.coefficient_overflows);
+  }
+  return in_lsb(model.colors(), hardware.datapath.channels);
+}
+
+std::vector<Color> render_real(const Options& options, const Scene& scene,
+                               const Geometry& geometry) {
+  const ShadingMethod& method = method_of(options.method);
+  const Visibility visibility = find_visible(scene, geometry);
+  if (method.name == "phong") return render_phong(scene, geometry, visibility);
+  if (const auto reason = refusal(method, scene, geometry.materials)) {
+    throw InputError(scene.file, 0, fmt::format("{} cannot render it: {}", method.name, *reason));
+  }
+  return render_method(scene, geometry, visibility, method, PowerKind::exact).colors;
+}
+
+int render(const Options& options) {
+  const Arithmetic arithmetic = options.arithmetic.value_or(
+      options.method == kPipelineMethod ? Arithmetic::fixed : Arithmetic::real);
+  check(options, arithmetic);
   Progress progress;
   progress("reading the scene");
   const Scene scene = load_scene(find_scene(options.scene));
   const Geometry geometry = make_geometry(scene);
   progress("shading");
+  std::vector<Color> colors;
+  if (!options.output.empty()) {
+    colors = arithmetic == Arithmetic::fixed ? render_fixed(options, scene, geometry)
+                                             : render_real(options, scene, geometry);
+  }
   if (!options.triangles.empty()) {
     std::ostringstream csv;
     dump_triangles(csv, scene, geometry);
     write_text(options.triangles, csv.str());
   }
-  if (options.output.empty()) return 0;
-
-  Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
-  suit_scene(hardware, scene, geometry);
-  const auto [width, height] = std::pair(scene.image.width, scene.image.height);
-  if (options.method == Method::taylor && arithmetic == Arithmetic::fixed) {
-    const FrameSetup frame(scene, geometry, hardware.datapath, hardware.pipeline.depth_bits);
-    const ModelFrame model = run_model(frame, geometry);
-    if (model.coefficient_overflows > 0) {
-      fmt::print(stderr, "warning: {} triangles have values that do not fit their registers\n",
-                 model.coefficient_overflows);
-    }
-    const std::vector<std::uint32_t> colors = model.colors();
-    if (is_pfm(options.output)) {
-      write_pfm(options.output, in_lsb(colors, hardware.datapath.channels), width, height);
-    } else {
-      write_png(options.output, picture_of(colors, width, height, hardware.datapath.channels));
-    }
-    return 0;
-  }
-  std::vector<Color> colors;
-  if (options.method == Method::phong) {
-    colors = render_phong(scene, geometry);
-  } else {
-    const FrameSetup frame(scene, geometry, hardware.datapath, hardware.pipeline.depth_bits);
-    colors = render_taylor(scene, geometry, frame);
-  }
-  if (is_pfm(options.output)) {
-    write_pfm(options.output, colors, width, height);
-  } else {
-    write_png(options.output, picture_of(colors, width, height, is_grey(scene, geometry) ? 1 : 3));
+  if (options.output.extension() == ".pfm") {
+    write_pfm(options.output, colors, scene.image.width, scene.image.height);
+  } else if (!options.output.empty()) {
+    write_png(options.output, picture_of(colors, scene.image.width, scene.image.height,
+                                         is_grey(scene, geometry) ? 1 : 3));
   }
   return 0;
+}
+
+std::string list_methods() {
+  std::string text = "\nMethods:\n";
+  for (const ShadingMethod& method : shading_methods()) {
+    text += fmt::format("  {:<20} {}\n", method.name, method.description);
+  }
+  return text;
 }
 
 }  // namespace
@@ -105,23 +128,21 @@ void add_render(CLI::App& application, Run& run) {
       ->type_name("SCENE");
   command->add_option("-o,--output", options->output, "Picture: .png, or .pfm for floats in LSB")
       ->type_name("FILE");
-  const std::map<std::string, Method> methods = {{"phong", Method::phong},
-                                                 {"taylor", Method::taylor}};
-  command->add_option("--method", options->method, "phong (exact) or taylor")
-      ->transform(CLI::CheckedTransformer(methods))
-      ->default_str("taylor");
+  command->add_option("--method", options->method, "Shading method, see below")
+      ->capture_default_str();
   const std::map<std::string, Arithmetic> arithmetics = {{"real", Arithmetic::real},
                                                          {"fixed", Arithmetic::fixed}};
   command
       ->add_option("--arithmetic", options->arithmetic,
                    "real (double precision) or fixed (the hardware's bits)")
       ->transform(CLI::CheckedTransformer(arithmetics))
-      ->default_str("fixed for taylor, real for phong");
+      ->default_str("fixed for taylor, else real");
   command
       ->add_option("--dump-triangles", options->triangles,
                    "Write the triangles as the setup engine receives them")
       ->type_name("FILE.csv");
-  command->footer("Example: phongpipe render scene.toml --method phong -o exact.pfm\n");
+  command->footer("Example: phongpipe render scene.toml --method phong -o exact.pfm\n" +
+                  list_methods());
   options->hardware.add_to(*command);
   command->callback([options, &run] { run = [options] { return render(*options); }; });
 }

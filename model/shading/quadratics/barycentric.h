@@ -15,10 +15,6 @@ struct SixValues {
   std::array<T, 3> corner, middle;
 };
 
-constexpr std::size_t next_corner(std::size_t i) {
-  return (i + 1) % 3;
-}
-
 // The barycentric coordinates u and v of corners 1 and 2 as functions of x and y, and their
 // products.
 template <typename T>

@@ -10,38 +10,56 @@
 
 namespace phongpipe {
 
-// Values at corners, middles of the edges, centroid, and half way from there to the corners.
+// Where a fit looks: 0–2 the corners, 3–5 the middles of the edges that face them, 6–8 half way
+// from the centroid to the corners, 9 the centroid.
+constexpr std::size_t kSixPoints = 6, kTenPoints = 10;
+
+template <typename T, std::size_t points>
+using Values = std::array<T, points>;
+
+// Forms at the fixed points, times 1 at corners, 2^d at middles, 6^d at inner points and 3^d at the
+// centroid, d the degree. What is computed from two corners is the same to the bit whichever comes
+// first: triangles that share an edge agree on it.
 template <typename T>
-struct TenValues {
-  SixValues<T> outer;
-  std::array<T, 3> inner;
-  T centre;
+struct LinearForm {
+  std::array<T, 3> corner;
+
+  template <std::size_t points>
+  Values<T, points> sampled() const {
+    Values<T, points> result;
+    for (std::size_t i = 0; i < 3; ++i) {
+      result[i] = corner[i];
+      result[3 + i] = corner[(i + 1) % 3] + corner[(i + 2) % 3];
+    }
+    if constexpr (points == kTenPoints) {
+      result[9] = corner[0] + result[3];
+      for (std::size_t i = 0; i < 3; ++i) {
+        result[6 + i] = result[9] + (twice(corner[i]) + corner[i]);
+      }
+    }
+    return result;
+  }
 };
 
-// F(λ) = Σ square[i] λi² + cross[i] λj λk. What is computed from two corners is the same to the bit
-// whichever comes first: triangles that share an edge agree on it.
+// Σ square[i] λi² + cross[i] λj λk
 template <typename T>
 struct QuadraticForm {
   std::array<T, 3> square, cross;
 
-  SixValues<T> at_six() const {
-    SixValues<T> result = {square, {}};
+  template <std::size_t points>
+  Values<T, points> sampled() const {
+    Values<T, points> result;
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = next_corner(i), k = next_corner(j);
-      result.middle[i] = square[j] + square[k] + cross[i];  // 4 F
+      result[i] = square[i];
+      result[3 + i] = square[(i + 1) % 3] + square[(i + 2) % 3] + cross[i];
     }
-    return result;
-  }
-
-  TenValues<T> at_ten() const {
-    TenValues<T> result = {at_six(), {}, {}};
-    const T squares = square[0] + square[1] + square[2];
-    result.centre = squares + (cross[0] + cross[1] + cross[2]);  // 9 F
-    for (std::size_t i = 0; i < 3; ++i) {
-      // 36 F(4, 1, 1) = F(1, 1, 1) + 15 square + 3 (cross + cross)
-      const std::size_t j = next_corner(i), k = next_corner(j);
-      const T three = square[i] + (cross[j] + cross[k]) * T(0.2);
-      result.inner[i] = result.centre + three * T(15);
+    if constexpr (points == kTenPoints) {
+      // 36 F at (4, 1, 1) / 6 is F(1, 1, 1) + 15 square[0] + 3 (cross[1] + cross[2]).
+      result[9] = square[0] + result[3] + (cross[1] + cross[2]);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const T crosses = cross[(i + 1) % 3] + cross[(i + 2) % 3];
+        result[6 + i] = result[9] + (square[i] * T(15) + crosses * T(3));
+      }
     }
     return result;
   }
@@ -51,9 +69,8 @@ template <typename T>
 QuadraticForm<T> squared_length(const std::array<Vector3<T>, 3>& n) {
   QuadraticForm<T> form;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = next_corner(i), k = next_corner(j);
     form.square[i] = n[i].dot(n[i]);
-    form.cross[i] = twice(n[j].dot(n[k]));
+    form.cross[i] = twice(n[(i + 1) % 3].dot(n[(i + 2) % 3]));
   }
   return form;
 }
@@ -62,11 +79,49 @@ template <typename T>
 QuadraticForm<T> product(const std::array<Vector3<T>, 3>& n, const std::array<Vector3<T>, 3>& m) {
   QuadraticForm<T> form;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = next_corner(i), k = next_corner(j);
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     form.square[i] = n[i].dot(m[i]);
     form.cross[i] = n[j].dot(m[k]) + n[k].dot(m[j]);
   }
   return form;
 }
+
+// The normals of a triangle at the fixed points.
+template <typename T, std::size_t points>
+class NormalSamples {
+ public:
+  explicit NormalSamples(const std::array<Vector3<T>, 3>& normal)
+      : normal_(normal),
+        inverse_length_(inverse_roots(squared_length(normal).template sampled<points>())) {}
+
+  // N·M / |N| at the first points, M constant and of unit length.
+  template <std::size_t first = points>
+  Values<T, first> cosines(const Vector3<T>& m) const {
+    const LinearForm<T> form = {{normal_[0].dot(m), normal_[1].dot(m), normal_[2].dot(m)}};
+    return times(form.template sampled<first>(), inverse_length_);
+  }
+
+  // N·M / (|N||M|), M linear between the corners.
+  template <std::size_t first = points>
+  Values<T, first> cosines(const std::array<Vector3<T>, 3>& m) const {
+    const auto inverse = inverse_roots(squared_length(m).template sampled<first>());
+    return times(times(product(normal_, m).template sampled<first>(), inverse_length_), inverse);
+  }
+
+ private:
+  template <std::size_t count>
+  static Values<T, count> inverse_roots(Values<T, count> v) {
+    for (T& x : v) x = rsqrt(x);
+    return v;
+  }
+  template <std::size_t count, std::size_t more>
+  static Values<T, count> times(Values<T, count> v, const Values<T, more>& factors) {
+    for (std::size_t i = 0; i < count; ++i) v[i] = v[i] * factors[i];
+    return v;
+  }
+
+  std::array<Vector3<T>, 3> normal_;
+  Values<T, points> inverse_length_;
+};
 
 }  // namespace phongpipe

@@ -1,17 +1,21 @@
 // Which six numbers a triangle's T_i are. The pixel hardware is the same for all.
 #pragma once
 
-#include <array>
 #include <string_view>
+#include <vector>
 
 namespace phongpipe {
 
 enum class SeriesFit {
   taylor,     // the paper's series about the expansion point
   six_point,  // through the corners and the middles of the edges
-  weighted    // least squares over ten points, specular ones by the sensitivity of the power
+  weighted,   // least squares over ten points, specular ones by the sensitivity of the power
+  focused     // the same; the specular ten points close in on the highlight
 };
 
-constexpr std::array<std::string_view, 3> kSeriesFitNames = {"taylor", "six-point", "weighted"};
+// By the enumeration's order.
+inline std::vector<std::string_view> series_fit_names() {
+  return {"taylor", "six-point", "weighted", "focused"};
+}
 
 }  // namespace phongpipe

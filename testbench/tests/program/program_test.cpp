@@ -199,6 +199,13 @@ TEST_F(Program, PhongRendersWhatThePipelineDoesNotSimulateYet) {
                  "two.toml: several lights are not simulated yet");
 }
 
+TEST_F(Program, AnEmptyPictureIsNoPass) {
+  std::string text = read_whole_file(fs::path(PHONGPIPE_SCENES) / "sphere.toml");
+  const std::string object = "primitive = \"sphere\"\n";
+  text.insert(text.find(object) + object.size(), "translate = [1000, 0, 0]\n");
+  expect_refused({"verify", write("away.toml", text)}, "nothing of the scene covers a pixel");
+}
+
 TEST_F(Program, BadUsageIsOneLineAndTwo) {
   expect_refused({}, "subcommand is required");
   expect_refused({"verify"}, "scenes is required");

@@ -1,0 +1,110 @@
+// The quadratic nearest to values at ten points, by weighted least squares in closed form. The
+// points lie four by four at even distances on the lines from the corners to the opposite edges;
+// there, and in one further way, quadratics cannot follow: −C + 3I − 3G + M = 0 on each line and
+// Σ4M − ΣC − 9G = 0, for values C at corners, M at middles, I inside and G at the centroid. The
+// residual of least squares is a combination of these four differences, each value's part divided
+// by its weight, so that four unknowns remain instead of six, and nearly separate ones.
+#pragma once
+
+#include "model/shading/quadratics/cosine_samples.h"
+
+namespace phongpipe {
+
+// 1/x, the setup engine having no divider.
+template <typename T>
+T reciprocal(const T& positive) {
+  const T root = rsqrt(positive);
+  return root * root;
+}
+
+template <typename T>
+T thrice(const T& x) {
+  return twice(x) + x;
+}
+
+// What quadratics cannot follow in ten values.
+template <typename T>
+struct Differences {
+  std::array<T, 3> line;
+  T around;
+
+  explicit Differences(const Values<T, kTenPoints>& f) {
+    const T centre = thrice(f[9]);
+    around = twice(twice(f[3] + f[4] + f[5])) - (f[0] + f[1] + f[2]) - thrice(centre);
+    for (std::size_t k = 0; k < 3; ++k) line[k] = f[3 + k] - f[k] + (thrice(f[6 + k]) - centre);
+  }
+};
+
+// `spread`: 1/weight of each squared residual, positive; their common scale does not matter.
+template <typename T>
+SixValues<T> fit_ten_points(const Values<T, kTenPoints>& f, const Values<T, kTenPoints>& spread) {
+  const Differences<T> b(f);
+  // Per line k an unknown y[k], for all of them z: d[k] y[k] + 3 g + e[k] z = b.line[k] and
+  // Σ e y + 9 g + h z = b.around, where −g is the residual at the centroid.
+  std::array<T, 3> e, b_over_d, e_over_d, inverse;
+  T q = T(-3), h = b.around;
+  for (std::size_t k = 0; k < 3; ++k) {
+    e[k] = spread[k] + twice(twice(spread[3 + k]));
+    inverse[k] = reciprocal(spread[k] + spread[6 + k] * T(9) + spread[3 + k]);
+    b_over_d[k] = b.line[k] * inverse[k];
+    e_over_d[k] = e[k] * inverse[k];
+    q += e_over_d[k];
+    h -= e[k] * b_over_d[k];
+  }
+  const T corners = spread[0] + spread[1] + spread[2], middles = spread[3] + spread[4] + spread[5];
+  const T t = corners + twice(twice(twice(twice(middles)))) -
+              (e[0] * e_over_d[0] + e[1] * e_over_d[1] + e[2] * e_over_d[2]);
+  // With S the spread at the centroid: p g + S q z = β and −3 q g + t z = h.
+  const T p = T(1.0 / 3) + thrice(spread[9] * (inverse[0] + inverse[1] + inverse[2]));
+  const T r = spread[9] * q;
+  const T beta = spread[9] * (b_over_d[0] + b_over_d[1] + b_over_d[2]);
+  const T inverse_det = reciprocal(p * t + thrice(r * q));
+  const T three_g = thrice((beta * t - r * h) * inverse_det);
+  const T z = (p * h + thrice(beta * q)) * inverse_det;
+
+  SixValues<T> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const T y = b_over_d[k] - three_g * inverse[k] - e_over_d[k] * z;
+    result.corner[k] = f[k] + spread[k] * (y + z);
+    result.middle[k] = f[3 + k] - spread[3 + k] * (y + twice(twice(z)));
+  }
+  return result;
+}
+
+// The same with weights that depend on the kind of point only: a fixed map.
+struct SpreadByKind {
+  double corner, middle, inner, centre;
+};
+
+template <typename T>
+SixValues<T> fit_ten_points(const Values<T, kTenPoints>& f, const SpreadByKind& s) {
+  const double inverse = 1 / (s.corner + 9 * s.inner + s.middle);
+  const double e = s.corner + 4 * s.middle;
+  const double p = 1.0 / 3 + 9 * s.centre * inverse, q = 3 * e * inverse - 3;
+  const double t = 3 * s.corner + 48 * s.middle - 3 * e * e * inverse;
+  const double inverse_det = 1 / (p * t + 3 * s.centre * q * q);
+  // What Σ line and around contribute to 3g and z, and these to all corners and to all middles.
+  const double g_lines = 3 * s.centre * inverse * (t + q * e) * inverse_det;
+  const double g_around = -3 * s.centre * q * inverse_det;
+  const double z_lines = inverse * (3 * s.centre * q - p * e) * inverse_det;
+  const double z_around = p * inverse_det;
+  const auto corners = [&](double g, double z) { return s.corner * (z - inverse * (g + e * z)); };
+  const auto middles = [&](double g, double z) {
+    return s.middle * (inverse * (g + e * z) - 4 * z);
+  };
+
+  const Differences<T> b(f);
+  const T lines = b.line[0] + b.line[1] + b.line[2];
+  const T at_corners =
+      lines * T(corners(g_lines, z_lines)) + b.around * T(corners(g_around, z_around));
+  const T at_middles =
+      lines * T(middles(g_lines, z_lines)) + b.around * T(middles(g_around, z_around));
+  SixValues<T> result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    result.corner[k] = f[k] + b.line[k] * T(s.corner * inverse) + at_corners;
+    result.middle[k] = f[3 + k] - b.line[k] * T(s.middle * inverse) + at_middles;
+  }
+  return result;
+}
+
+}  // namespace phongpipe

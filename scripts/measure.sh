@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Measures what the README says about speed, as ratios within one run, on an otherwise idle machine.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/install.sh
+scripts/build.sh build all -DCMAKE_BUILD_TYPE=Release
+csv=$(mktemp -d)
+trap 'rm -rf "$csv"' EXIT
+for name in model rtl systemc; do
+  build/bin/${name}_bench --benchmark_format=csv >"$csv/$name" 2>/dev/null
+done
+# name, iterations, real time (ms), …, items per second in column 7
+value() { awk -F, -v name="\"$2\"" -v column="$3" '$1 == name { printf "%.6g", $column }' "$csv/$1"; }
+ratio() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", a / b }'; }
+rate() { value "$1" "$2" 7; }
+
+echo "model, AVX2 or better, over Phong in double: 64-pixel spans $(ratio "$(rate model model/best/64)" "$(rate model phong_in_double/64)"), the pawn's spans $(ratio "$(rate model model/best/0)" "$(rate model phong_in_double/0)")"
+echo "model, portable, over Phong in double:       64-pixel spans $(ratio "$(rate model model/portable/64)" "$(rate model phong_in_double/64)"), the pawn's spans $(ratio "$(rate model model/portable/0)" "$(rate model phong_in_double/0)")"
+echo "RTL compared with the model over bare RTL:   $(ratio "$(rate rtl compared)" "$(rate rtl bare)") ($(rate rtl bare) pixels/s bare)"
+echo "SystemC by clock over by span, pawn frame:   $(ratio "$(value systemc by_clock/manual_time 3)" "$(value systemc by_span/manual_time 3)") ($(value systemc by_span/manual_time 3) ms by span)"
+echo "image size, pixels/s of the model's frame and of SystemC by span:"
+for size in 256 512 1024 2048 4096; do
+  echo "  $size²  $(rate systemc "model_at_size/$size")  $(rate systemc "by_span_at_size/$size/manual_time")"
+done
+echo "pawn at 2048², start to end with pictures:"
+pictures=$csv/pictures
+TIMEFORMAT='  %R s'
+time build/bin/phongpipe verify pawn --out "$pictures" >/dev/null

@@ -1,0 +1,109 @@
+// phongpipe compare: all shading methods, accuracy against time.
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "model/scene/input_error.h"
+#include "testbench/commands/commands.h"
+#include "testbench/comparison_report.h"
+#include "testbench/curves.h"
+#include "testbench/operation_time.h"
+#include "testbench/pictures.h"
+
+namespace phongpipe {
+namespace {
+
+struct Options {
+  std::vector<std::string> scenes;
+  HardwareOptions hardware;
+  std::string curve;
+  bool microvax = false;
+  std::filesystem::path out;
+  std::string json, csv;
+};
+
+struct NamedCurve {
+  std::string name;  // of its files
+  Curve curve;
+};
+
+std::vector<NamedCurve> draw_curves(const Options& options, const CurveOptions& how) {
+  constexpr double kShininess = 20;
+  if (options.curve == "curvature") {
+    return {{"curvature-diffuse", curvature_curve(Parts::diffuse, kShininess, how)},
+            {"curvature", curvature_curve(Parts::full, kShininess, how)}};
+  }
+  if (options.curve == "exponent") return {{"exponent", exponent_curve(10, how)}};
+  const PipelineConfiguration units =
+      load_hardware(options.hardware.hardware, options.hardware.overrides).pipeline;
+  const auto on_units = [units](const OperationCounts& counts) { return clocks(counts, units); };
+  return {{"size-diffuse", size_curve(Parts::diffuse, PowerKind::table, on_units, how)},
+          {"size", size_curve(Parts::full, PowerKind::table, on_units, how)}};
+}
+
+void write_curves(const Options& options, Progress& progress) {
+  CurveOptions how;
+  how.progress = [&progress](const std::string& what) { progress(what); };
+  const std::vector<NamedCurve> curves = draw_curves(options, how);
+  progress.clear();
+  for (const auto& [name, curve] : curves) {
+    fmt::print("# {}\n{}", curve.title, curve_csv(curve));
+    if (options.out.empty()) continue;
+    std::filesystem::create_directories(options.out);
+    write_text(options.out / (name + ".csv"), curve_csv(curve));
+    write_text(options.out / (name + ".svg"), svg(chart_of(curve)));
+  }
+}
+
+int compare_methods(const Options& options) {
+  if (options.scenes.empty() && options.curve.empty() && !options.microvax) {
+    throw InputError("nothing to compare: give scenes, --curve NAME or --microvax");
+  }
+  Progress progress;
+  if (options.microvax) fmt::print("{}", microvax_text());
+  if (!options.curve.empty()) write_curves(options, progress);
+  const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
+  nlohmann::ordered_json results = nlohmann::ordered_json::array();
+  std::string csv;
+  for (const std::string& scene : options.scenes) {
+    const Comparison comparison =
+        compare(find_scene(scene), hardware, [&](const std::string& what) { progress(what); });
+    progress.clear();
+    fmt::print("{}", comparison_text(comparison));
+    results.push_back(comparison_json(comparison));
+    const std::string rows = comparison_csv(comparison);
+    csv += csv.empty() ? rows : rows.substr(rows.find('\n') + 1);
+    if (!options.out.empty()) write_comparison_page(comparison, options.out);
+  }
+  if (!options.json.empty()) write_text(options.json, results.dump(2) + "\n");
+  if (!options.csv.empty()) write_text(options.csv, csv);
+  return 0;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& application, Run& run) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = application.add_subcommand(
+      "compare", "Compare all shading methods: operations, time and accuracy");
+  command->add_option("scenes", options->scenes, "Scene files, or names of shipped scenes")
+      ->type_name("SCENE");
+  command->add_option("--out", options->out, "Folder for a page with plot, pictures and error maps")
+      ->type_name("DIR");
+  command->add_option("--json", options->json, "Write the results as JSON")->type_name("FILE");
+  command->add_option("--csv", options->csv, "Write the table as CSV")->type_name("FILE");
+  command
+      ->add_option("--curve", options->curve,
+                   "A curve over all methods: error over curvature, clocks over triangle size, or "
+                   "error over the exponent")
+      ->check(CLI::IsMember({"curvature", "size", "exponent"}));
+  command->add_flag("--microvax", options->microvax,
+                    "The paper's timings beside the operations counted");
+  command->footer(
+      "Example: phongpipe compare teapot --out out\n"
+      "         phongpipe compare --curve curvature --out out\n");
+  options->hardware.add_to(*command);
+  command->callback([options, &run] { run = [options] { return compare_methods(*options); }; });
+}
+
+}  // namespace phongpipe

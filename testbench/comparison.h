@@ -1,0 +1,50 @@
+// All shading methods on one scene: what each costs, and how far it is from exact Phong shading.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/shading/methods/shading_method.h"
+#include "testbench/accuracy.h"
+#include "testbench/hardware.h"
+
+namespace phongpipe {
+
+struct MethodResult {
+  const ShadingMethod* method = nullptr;
+  std::string refused;  // why it cannot render the scene; nothing below is filled in then
+  std::string note;
+
+  MethodCosts costs;
+  double clocks_per_pixel = 0;  // on the configured units, setup amortised over the scene
+  double ns_per_pixel = 0;
+  double operations_per_pixel = 0;  // one after the other, as the paper counts, setup amortised
+  double break_even_pixels = 0;     // triangles of so many pixels cost as much as exact Phong's; 0:
+                                    // always less, infinite: never
+  double wall_clock_ns = 0;         // per shaded pixel, on this machine, one run, setup included
+  ErrorStatistics error;
+  double seam = 0;  // largest jump of the error between pixels on both sides of a shared edge, LSB
+
+  std::vector<Color> colors;
+  std::vector<float> errors;  // the largest of the channels, NaN where nothing is covered
+};
+
+struct Comparison {
+  std::filesystem::path scene;
+  Hardware hardware;
+  int width = 0, height = 0, channels = 3;
+  std::size_t triangles = 0, spans = 0, pixels = 0;  // with a pixel; rows; shaded
+  std::vector<MethodResult> methods;
+};
+
+Comparison compare(const std::filesystem::path& scene, const Hardware& hardware,
+                   const std::function<void(const std::string&)>& progress);
+
+// Triangles of how many pixels cost `a` as much as `b`, in sequential operations: where `a` has the
+// dearer setup and the cheaper pixel, it pays from there on. 0 where it always costs less, infinite
+// where it never does.
+double break_even(const MethodCosts& a, const MethodCosts& b);
+
+}  // namespace phongpipe

@@ -1,0 +1,31 @@
+// Charts as SVG text: lines or labelled points over two axes, on white. No scripts, no other files
+// and no ids, so that the text may stand in an HTML page as it is.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace phongpipe {
+
+struct PlotPoint {
+  double x = 0, y = 0;
+  std::string label;  // drawn beside the point
+};
+
+struct PlotSeries {
+  std::string name;
+  std::vector<PlotPoint> points;  // joined in this order
+};
+
+struct Chart {
+  std::string title, x_label, y_label;
+  bool log_x = false, log_y = false;
+  bool lines = true;  // join a series' points
+  std::vector<PlotSeries> series;
+};
+
+// Points that are not finite, or not positive on a logarithmic axis, are left out, and a line is
+// broken there; the legend says which series have no point left.
+std::string svg(const Chart& chart);
+
+}  // namespace phongpipe
