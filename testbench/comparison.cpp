@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "model/scene/input_error.h"
+#include "testbench/curves.h"
 #include "testbench/operation_time.h"
 #include "testbench/real_frame.h"
 
@@ -110,7 +111,7 @@ class SceneComparison {
                   [&units](const OperationCounts& counts) { return clocks(counts, units); });
     result.ns_per_pixel = result.clocks_per_pixel * comparison_.hardware.clock_ns();
     result.operations_per_pixel = amortised(result.costs, comparison_, sequential_operations);
-    result.break_even_pixels = break_even(result.costs, phong);
+    result.break_even_pixels = break_even_pixels(result.costs, phong, sequential_operations);
   }
 
   void judge(const Scene& scene, std::vector<Color> colors, MethodResult& result) {
@@ -143,16 +144,6 @@ class SceneComparison {
 };
 
 }  // namespace
-
-double break_even(const MethodCosts& a, const MethodCosts& b) {
-  const auto pixel = [](const MethodCosts& m) {
-    return sequential_operations(m.pixel + m.combine);
-  };
-  const double setup = sequential_operations(a.triangle) - sequential_operations(b.triangle);
-  const double saved = pixel(b) - pixel(a);
-  if (setup <= 0 && saved >= 0) return 0;
-  return saved > 0 ? setup / saved : std::numeric_limits<double>::infinity();
-}
 
 Comparison compare(const std::filesystem::path& file, const Hardware& hardware,
                    const std::function<void(const std::string&)>& progress) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +22,10 @@ struct MethodResult {
   double clocks_per_pixel = 0;  // on the configured units, setup amortised over the scene
   double ns_per_pixel = 0;
   double operations_per_pixel = 0;  // one after the other, as the paper counts, setup amortised
-  double break_even_pixels = 0;     // triangles of so many pixels cost as much as exact Phong's; 0:
-                                    // always less, infinite: never
-  double wall_clock_ns = 0;         // per shaded pixel, on this machine, one run, setup included
+  // Triangles of so many pixels and more cost less than exact Phong's, one operation after the
+  // other.
+  std::optional<int> break_even_pixels;
+  double wall_clock_ns = 0;  // per shaded pixel, on this machine, one run, setup included
   ErrorStatistics error;
   double seam = 0;  // largest jump of the error between pixels on both sides of a shared edge, LSB
 
@@ -41,10 +43,5 @@ struct Comparison {
 
 Comparison compare(const std::filesystem::path& scene, const Hardware& hardware,
                    const std::function<void(const std::string&)>& progress);
-
-// Triangles of how many pixels cost `a` as much as `b`, in sequential operations: where `a` has the
-// dearer setup and the cheaper pixel, it pays from there on. 0 where it always costs less, infinite
-// where it never does.
-double break_even(const MethodCosts& a, const MethodCosts& b);
 
 }  // namespace phongpipe

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "testbench/curves.h"
 #include "testbench/operation_time.h"
 #include "testbench/pictures.h"
 
@@ -16,9 +17,8 @@ std::string operations_text(const OperationCounts& c) {
   return fmt::format("{}/{}/{}/{}/{}", c.add, c.multiply, c.divide, c.sqrt + c.rsqrt, c.read);
 }
 
-std::string break_even_text(double pixels) {
-  if (pixels == 0) return "always";
-  return std::isinf(pixels) ? "never" : fmt::format("{:.0f}", std::ceil(pixels));
+std::string break_even_text(std::optional<int> pixels) {
+  return pixels ? fmt::format("{}", *pixels) : "never";
 }
 
 double wall_clock_of_phong(const Comparison& comparison) {
@@ -104,7 +104,9 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
       nlohmann::ordered_json pays = nlohmann::ordered_json::object();
       for (const MethodResult& other : comparison.methods) {
         if (!other.refused.empty() || &other == &r) continue;
-        pays[std::string(other.method->name)] = finite_or_null(break_even(r.costs, other.costs));
+        const auto pixels = break_even_pixels(r.costs, other.costs, sequential_operations);
+        pays[std::string(other.method->name)] =
+            pixels ? nlohmann::ordered_json(*pixels) : nlohmann::ordered_json(nullptr);
       }
       j.update({{"note", r.note},
                 {"operations",

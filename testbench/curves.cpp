@@ -121,8 +121,9 @@ Curve curvature_curve(Parts parts, double shininess, const CurveOptions& options
   // With a highlight, the light is nowhere far beyond the horizon; without, any light is as good.
   const double eye_from_peak = parts == Parts::full ? 30 : 60;
   Curve curve;
-  curve.title = parts == Parts::full ? fmt::format("Full Phong shading, exponent {}", shininess)
-                                     : "Diffuse light";
+  curve.title = parts == Parts::full
+                    ? fmt::format("Error of full Phong shading, exponent {}", shininess)
+                    : "Error of diffuse light";
   curve.x_label = "largest angle between the normals of a triangle, degrees";
   curve.y_label = y_label(options);
   curve.log_y = true;
@@ -152,7 +153,7 @@ double amortised_clocks(const MethodCosts& costs, int pixels, const ClockFunctio
 Curve size_curve(Parts parts, PowerKind power, const ClockFunction& clocks,
                  const CurveOptions& options) {
   Curve curve;
-  curve.title = parts == Parts::full ? "Full Phong shading" : "Diffuse light";
+  curve.title = parts == Parts::full ? "Time of full Phong shading" : "Time of diffuse light";
   curve.x_label = "size of a triangle, pixels";
   curve.y_label = "clocks a pixel, set-up included";
   curve.log_x = curve.log_y = true;
@@ -182,7 +183,8 @@ std::optional<int> break_even_pixels(const MethodCosts& method, const MethodCost
 
 Curve exponent_curve(double spread_degrees, const CurveOptions& options) {
   Curve curve;
-  curve.title = fmt::format("The highlight alone, normals spanning {} degrees", spread_degrees);
+  curve.title =
+      fmt::format("Error of the highlight alone, normals spanning {} degrees", spread_degrees);
   curve.x_label = "exponent";
   curve.y_label = y_label(options);
   curve.log_x = curve.log_y = true;

@@ -110,9 +110,10 @@ nlohmann::ordered_json statistics_json(const ErrorStatistics& s) {
 
 std::string report_text(const Verification& v, bool color) {
   Page page(color);
-  page.plain(fmt::format("{}: {} triangles ({} cover a pixel), {} pixels shaded, {} visible",
-                         v.scene.string(), v.triangles, v.triangles_set_up, v.pixels,
-                         v.visible_pixels));
+  page.plain(fmt::format(
+      "{}: {} triangles, {} of them in view, {} cover a pixel; {} pixels shaded, {} visible",
+      v.scene.string(), v.triangles_read, v.triangles, v.triangles_set_up, v.pixels,
+      v.visible_pixels));
   for (const std::string& note : v.notes) page.line("note", "{}", note);
   page.line("hardware", "{}, configuration {}", v.hardware.name, configuration_hash(v.hardware));
   report_hardware(page, v);
@@ -168,6 +169,7 @@ nlohmann::ordered_json report_json(const Verification& v) {
           {"configuration", configuration},
           {"configuration_hash", configuration_hash(v.hardware)},
           {"triangles", v.triangles},
+          {"triangles_read", v.triangles_read},
           {"pixels", v.pixels},
           {"mismatches",
            {{"model_rtl", v.rtl.mismatches + v.rtl.frame_mismatches},

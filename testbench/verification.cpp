@@ -180,6 +180,7 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
   v.hardware = hardware;
   suit_scene(v.hardware, scene, geometry);
   v.notes = geometry.notes;
+  v.triangles_read = geometry.triangles_read;
   v.triangles = geometry.triangles.size();
   const FrameSetup frame(scene, geometry, v.hardware.datapath, v.hardware.pipeline.depth_bits);
   v.plan = frame.plan;
@@ -200,7 +201,8 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
   v.coefficient_overflows = model.coefficient_overflows;
   v.pixels = model.stream.size();
   if (v.pixels == 0) {
-    throw InputError(file, 0, "nothing of the scene covers a pixel; look at the camera and the objects");
+    throw InputError(file, 0,
+                     "nothing of the scene covers a pixel; look at the camera and the objects");
   }
   for (std::size_t i = 0; i < model.framebuffer.size(); ++i) {
     v.visible_pixels += model.framebuffer.covered(i);

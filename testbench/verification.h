@@ -52,8 +52,10 @@ struct Verification {
   SeriesPlan plan;
   VerificationOptions options;
   std::vector<std::string> notes;
-  std::size_t triangles = 0, triangles_set_up = 0;
-  std::uint64_t pixels = 0;  // shaded
+  std::size_t triangles_read = 0;    // of the meshes
+  std::size_t triangles = 0;         // after clipping and culling
+  std::size_t triangles_set_up = 0;  // that cover a pixel
+  std::uint64_t pixels = 0;          // shaded
   std::uint64_t visible_pixels = 0;
   std::size_t coefficient_overflows = 0;
   double rom_error = 0;  // largest of the materials' tables, share of full scale

@@ -2,17 +2,14 @@
 
 #include <limits>
 
-#include "model/shading/linear.h"
+#include "model/shading/screen_interpolator.h"
 
 namespace phongpipe {
 namespace {
 
 Linear<double> depth_of(const ScreenTriangle& triangle) {
   const auto& v = triangle.vertices;
-  const auto pixels = [](std::int32_t q) { return q / static_cast<double>(kSubpixels); };
-  const Interpolator<double> interpolate({pixels(v[0].x), pixels(v[1].x), pixels(v[2].x)},
-                                         {pixels(v[0].y), pixels(v[1].y), pixels(v[2].y)});
-  return interpolate(v[0].z, v[1].z, v[2].z);
+  return screen_interpolator(triangle)(v[0].z, v[1].z, v[2].z);
 }
 
 }  // namespace

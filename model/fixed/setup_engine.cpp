@@ -20,8 +20,8 @@ TriangleCoefficients<double> SetupEngine::coefficients(std::uint32_t triangle, i
   TriangleInput<double> input;
   for (std::size_t i = 0; i < 3; ++i) {
     const ScreenVertex& vertex = source.vertices[i];
-    input.x[i] = vertex.x / static_cast<double>(kSubpixels) - (x + 0.5);
-    input.y[i] = vertex.y / static_cast<double>(kSubpixels) - (y + 0.5);
+    input.x[i] = in_pixels(vertex.x) - (x + 0.5);
+    input.y[i] = in_pixels(vertex.y) - (y + 0.5);
     input.z[i] = (vertex.z - frame_->depth_offset) * frame_->depth_scale;
     input.normal[i] = vertex.normal;
     input.eye[i] = vertex.eye;

@@ -13,7 +13,10 @@ namespace phongpipe {
 
 constexpr int kSubpixelBits = 8;
 constexpr int kSubpixels = 1 << kSubpixelBits;  // to a pixel: the grid vertices sit on
-constexpr int kGuardBand = 8192;                // pixels beyond the image a vertex may lie
+inline double in_pixels(std::int32_t subpixels) {
+  return subpixels / static_cast<double>(kSubpixels);
+}
+constexpr int kGuardBand = 8192;  // pixels beyond the image a vertex may lie
 
 struct ScreenVertex {
   std::int32_t x = 0;  // 1/256 pixel from the left edge of the image; pixel centres at .5 pixel

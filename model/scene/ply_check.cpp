@@ -1,8 +1,8 @@
 #include "model/scene/ply_check.h"
 
-#include <cstdint>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <cstdint>
 
 #include <algorithm>
 #include <array>

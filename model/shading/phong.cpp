@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/shading/screen_interpolator.h"
+
 namespace phongpipe {
 namespace {
 
@@ -61,9 +63,7 @@ PhongTriangle::PhongTriangle(const Scene& scene, const Material& material,
                              const ScreenTriangle& triangle)
     : scene_(&scene), material_(&material) {
   const auto& v = triangle.vertices;
-  const auto pixels = [](std::int32_t q) { return q / static_cast<double>(kSubpixels); };
-  const Interpolator<double> interpolate({pixels(v[0].x), pixels(v[1].x), pixels(v[2].x)},
-                                         {pixels(v[0].y), pixels(v[1].y), pixels(v[2].y)});
+  const Interpolator<double> interpolate = screen_interpolator(triangle);
   normal_ = interpolate(v[0].normal, v[1].normal, v[2].normal);
   eye_ = interpolate(v[0].eye, v[1].eye, v[2].eye);
   lights_vary_ = scene.shading.viewer == Viewer::local;

@@ -3,6 +3,7 @@
 // prints one table for diffuse light and one for highlights.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -46,11 +47,10 @@ Candidate candidate(const std::string& name, const Fit& fit) {
 }
 
 Candidate engine(SeriesFit fit) {
-  return candidate(std::string(series_fit_names()[static_cast<std::size_t>(fit)]),
-                   [fit](const auto& in) {
-                     return fit_series(fit, in.interpolate, in.normal, in.to_light, in.halfway,
-                                       in.sharpness);
-                   });
+  return candidate(
+      std::string(series_fit_names()[static_cast<std::size_t>(fit)]), [fit](const auto& in) {
+        return fit_series(fit, in.interpolate, in.normal, in.to_light, in.halfway, in.sharpness);
+      });
 }
 
 // Taylor's series about the middle of the highlight instead of the triangle's.
@@ -80,17 +80,28 @@ struct SevenPoints {
 
   template <typename T>
   CosineSeries<T> operator()(const FitInput<T>& in) const {
-    const NormalSamples<T, kTenPoints> samples(in.normal);  // counts three points too many
+    const auto sampled = [](const auto& form, const std::array<T, 3>& corner, const T& crosses) {
+      const Values<T, kSixPoints> six = form.template sampled<kSixPoints>();
+      std::array<T, kSixPoints + 1> seven;
+      std::copy(six.begin(), six.end(), seven.begin());
+      seven[6] = corner[0] + six[3] + crosses;
+      return seven;
+    };
+    const QuadraticForm<T> square = squared_length(in.normal);
+    auto inverse_length = sampled(square, square.square, square.cross[1] + square.cross[2]);
+    for (T& x : inverse_length) x = rsqrt(x);
     const BarycentricBasis<T> basis(in.interpolate.coordinate_1(), in.interpolate.coordinate_2());
     const Fading<T> fading(in.sharpness * T(2.0 / 8));
-    const auto fit = [&](const Values<T, kTenPoints>& f, bool weigh) {
-      std::array<T, kTenPoints> spread;
-      for (std::size_t i = 0; i < kTenPoints; ++i) {
+    const auto fit = [&](const Vector3<T>& m, bool weigh) {
+      const LinearForm<T> dot = {{in.normal[0].dot(m), in.normal[1].dot(m), in.normal[2].dot(m)}};
+      auto f = sampled(dot, dot.corner, T(0)), spread = f;
+      for (std::size_t i = 0; i < f.size(); ++i) {
+        f[i] = f[i] * inverse_length[i];
         spread[i] = weigh ? eighth_power(fading(f[i])) : T(1);
       }
-      const T around = twice(twice(f[3] + f[4] + f[5])) - (f[0] + f[1] + f[2]) - f[9] * T(9);
+      const T around = twice(twice(f[3] + f[4] + f[5])) - (f[0] + f[1] + f[2]) - f[6] * T(9);
       const T norm = spread[0] + spread[1] + spread[2] +
-                     T(16) * (spread[3] + spread[4] + spread[5]) + T(81) * spread[9];
+                     T(16) * (spread[3] + spread[4] + spread[5]) + T(81) * spread[6];
       const T step = around * reciprocal(norm);
       SixValues<T> result;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -99,17 +110,31 @@ struct SevenPoints {
       }
       return basis(result);
     };
-    return {fit(samples.cosines(in.to_light), false), fit(samples.cosines(in.halfway), weighted)};
+    return {fit(in.to_light, false), fit(in.halfway, weighted)};
   }
 };
 
+// Ten points with even weights.
 struct TenPoints {
   template <typename T>
   CosineSeries<T> operator()(const FitInput<T>& in) const {
     const NormalSamples<T, kTenPoints> samples(in.normal);
     const BarycentricBasis<T> basis(in.interpolate.coordinate_1(), in.interpolate.coordinate_2());
-    return {basis(fit_ten_points(samples.cosines(in.to_light), SpreadByKind{1, 1, 1, 1})),
-            basis(fit_ten_points(samples.cosines(in.halfway), SpreadByKind{1, 1, 1, 1}))};
+    Values<T, kTenPoints> even;
+    even.fill(T(1));
+    return {basis(fit_ten_points(samples.cosines(in.to_light), even)),
+            basis(fit_ten_points(samples.cosines(in.halfway), even))};
+  }
+};
+
+// The map for N·L, for both.
+struct NinePoints {
+  template <typename T>
+  CosineSeries<T> operator()(const FitInput<T>& in) const {
+    const NormalSamples<T, kNinePoints> samples(in.normal);
+    const BarycentricBasis<T> basis(in.interpolate.coordinate_1(), in.interpolate.coordinate_2());
+    return {basis(fit_nine_points(samples.cosines(in.to_light))),
+            basis(fit_nine_points(samples.cosines(in.halfway)))};
   }
 };
 
@@ -183,10 +208,12 @@ int study() {
                                              candidate("seven", SevenPoints{false}),
                                              candidate("seven weighted", SevenPoints{true}),
                                              candidate("ten", TenPoints()),
+                                             candidate("nine, one map", NinePoints()),
                                              engine(SeriesFit::weighted),
                                              engine(SeriesFit::focused)};
   fmt::print(
-      "Largest error of a triangle in LSB, median (worst) of {} random ones, seed {}, and the share "
+      "Largest error of a triangle in LSB, median (worst) of {} random ones, seed {}, and the "
+      "share "
       "of them within {} of the best.\nOperations of the whole setup: additions, multiplications "
       "and 1/√, one channel, eye at infinity.\n\n",
       kTriangles, kSeed, kNearBest);

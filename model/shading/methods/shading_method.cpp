@@ -93,8 +93,8 @@ ShadingInput<double> shading_input(const ShaderContext& context) {
   ShadingInput<double> in;
   for (std::size_t i = 0; i < 3; ++i) {
     const ScreenVertex& vertex = context.triangle.vertices[i];
-    in.x[i] = vertex.x / static_cast<double>(kSubpixels) - (context.origin_x + 0.5);
-    in.y[i] = vertex.y / static_cast<double>(kSubpixels) - (context.origin_y + 0.5);
+    in.x[i] = in_pixels(vertex.x) - (context.origin_x + 0.5);
+    in.y[i] = in_pixels(vertex.y) - (context.origin_y + 0.5);
     in.normal[i] = vertex.normal;
     in.eye[i] = vertex.eye;
     in.to_light[i] = light_vector(light, vertex);

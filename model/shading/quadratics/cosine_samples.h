@@ -12,7 +12,7 @@ namespace phongpipe {
 
 // Where a fit looks: 0–2 the corners, 3–5 the middles of the edges that face them, 6–8 half way
 // from the centroid to the corners, 9 the centroid.
-constexpr std::size_t kSixPoints = 6, kTenPoints = 10;
+constexpr std::size_t kSixPoints = 6, kNinePoints = 9, kTenPoints = 10;
 
 template <typename T, std::size_t points>
 using Values = std::array<T, points>;
@@ -31,11 +31,12 @@ struct LinearForm {
       result[i] = corner[i];
       result[3 + i] = corner[(i + 1) % 3] + corner[(i + 2) % 3];
     }
-    if constexpr (points == kTenPoints) {
-      result[9] = corner[0] + result[3];
+    if constexpr (points > kSixPoints) {
+      const T centre = corner[0] + result[3];
       for (std::size_t i = 0; i < 3; ++i) {
-        result[6 + i] = result[9] + (twice(corner[i]) + corner[i]);
+        result[6 + i] = centre + (twice(corner[i]) + corner[i]);
       }
+      if constexpr (points == kTenPoints) result[9] = centre;
     }
     return result;
   }
@@ -53,13 +54,14 @@ struct QuadraticForm {
       result[i] = square[i];
       result[3 + i] = square[(i + 1) % 3] + square[(i + 2) % 3] + cross[i];
     }
-    if constexpr (points == kTenPoints) {
-      // 36 F at (4, 1, 1) / 6 is F(1, 1, 1) + 15 square[0] + 3 (cross[1] + cross[2]).
-      result[9] = square[0] + result[3] + (cross[1] + cross[2]);
+    if constexpr (points > kSixPoints) {
+      // F(4, 1, 1) = F(1, 1, 1) + 15 square[0] + 3 (cross[1] + cross[2])
+      const T centre = square[0] + result[3] + (cross[1] + cross[2]);
       for (std::size_t i = 0; i < 3; ++i) {
         const T crosses = cross[(i + 1) % 3] + cross[(i + 2) % 3];
-        result[6 + i] = result[9] + (square[i] * T(15) + crosses * T(3));
+        result[6 + i] = centre + (square[i] * T(15) + crosses * T(3));
       }
+      if constexpr (points == kTenPoints) result[9] = centre;
     }
     return result;
   }

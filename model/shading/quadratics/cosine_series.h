@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/shading/quadratics/focus.h"
+#include "model/shading/quadratics/nine_point_fit.h"
 #include "model/shading/quadratics/series_fit.h"
 
 namespace phongpipe {
@@ -16,11 +17,14 @@ using Corners = std::array<Vector3<T>, 3>;
 
 namespace detail {
 
-// Near minimax for cubics.
-constexpr SpreadByKind kDiffuseSpread = {2, 0.5, 1, 1};
-// The same about a highlight.
-constexpr SpreadByKind kFocusSpread = {1, 0.58, 0.73, 0.69};
-constexpr double kFocusExponent = 2.3;
+// What a weight is divided by at each kind of point, beside the sensitivity. Chosen, as the
+// exponent is, for the smallest largest errors relative to the best quadratics'.
+struct SpreadByKind {
+  double corner, middle, inner, centre;
+};
+constexpr SpreadByKind kEvenSpread = {1, 1, 1, 1};
+constexpr SpreadByKind kFocusSpread = {1, 0.62, 0.45, 0.38};
+constexpr double kFocusExponent = 1.9;
 
 template <typename T>
 Quadratic<T> expand(const NormalExpansion<T>& expansion, const Interpolator<T>&,
@@ -40,8 +44,8 @@ SixValues<T> through(const Values<T, kSixPoints>& f) {
 
 // Residuals count by the power's sensitivity to them.
 template <typename T>
-SixValues<T> fit_sensitive(const Values<T, kTenPoints>& f, const SpreadByKind& s, const T& sharpness,
-                           double exponent) {
+SixValues<T> fit_sensitive(const Values<T, kTenPoints>& f, const SpreadByKind& s,
+                           const T& sharpness, double exponent) {
   const Fading<T> fading(sharpness * T(exponent / 8));
   Values<T, kTenPoints> spread;
   for (std::size_t i = 0; i < kTenPoints; ++i) {
@@ -72,7 +76,7 @@ Corners<T> around_focus(const Focus<T>& focus, const Corners<T>& m) {
 
 template <typename T, typename M>
 Quadratic<T> focused_series(const Interpolator<T>& interpolate, const Corners<T>& normal,
-                            const NormalSamples<T, kTenPoints>& samples, const M& halfway,
+                            const NormalSamples<T, kNinePoints>& samples, const M& halfway,
                             const T& sharpness) {
   const auto cosines = samples.template cosines<kSixPoints>(halfway);
   Focus<T> focus(cosines, sharpness);
@@ -104,14 +108,15 @@ CosineSeries<T> fit_series(SeriesFit fit, const Interpolator<T>& interpolate,
     return {basis(detail::through(samples.cosines(to_light))),
             basis(detail::through(samples.cosines(halfway)))};
   }
-  const NormalSamples<T, kTenPoints> samples(normal);
-  const Quadratic<T> light =
-      basis(fit_ten_points(samples.cosines(to_light), detail::kDiffuseSpread));
   if (fit == SeriesFit::weighted) {
-    return {light, basis(detail::fit_sensitive(samples.cosines(halfway), {1, 1, 1, 1}, sharpness,
-                                               2.0))};
+    const NormalSamples<T, kTenPoints> samples(normal);
+    return {basis(fit_nine_points(samples.template cosines<kNinePoints>(to_light))),
+            basis(detail::fit_sensitive(samples.cosines(halfway), detail::kEvenSpread, sharpness,
+                                        2.0))};
   }
-  return {light, detail::focused_series(interpolate, normal, samples, halfway, sharpness)};
+  const NormalSamples<T, kNinePoints> samples(normal);
+  return {basis(fit_nine_points(samples.cosines(to_light))),
+          detail::focused_series(interpolate, normal, samples, halfway, sharpness)};
 }
 
 }  // namespace phongpipe

@@ -56,7 +56,7 @@ class Focus {
  private:
   // Chosen for the smallest ratio of errors to those of the best quadratics.
   static constexpr double kCentring = 1.3;
-  static constexpr double kFading = 5.9;
+  static constexpr double kFading = 6.2;
 
   std::array<T, 3> centre_;  // in barycentric coordinates
   T scale_, inverse_scale_;

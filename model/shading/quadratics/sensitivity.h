@@ -20,9 +20,9 @@ T eighth_power(const T& x) {
   return fourth * fourth;
 }
 
-// 1 + slope·(1 − s). Where a quadratic misses s by d, s^n is missed by about n s^(n−1) d. The inverse
-// of that sensitivity needs no table: s^−m = (1 + (1 − s)/s)^m is near (1 + m (1 − s)/8)^8 as far as
-// it matters, and is less extreme where highlights have died away, which does a fit good.
+// 1 + slope·(1 − s). Where a quadratic misses s by d, s^n is missed by about n s^(n−1) d. The
+// inverse of that sensitivity needs no table: s^−m = (1 + (1 − s)/s)^m is near (1 + m (1 − s)/8)^8
+// as far as it matters, and is less extreme where highlights have died away, which does a fit good.
 template <typename T>
 class Fading {
  public:

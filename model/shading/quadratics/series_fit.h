@@ -9,8 +9,8 @@ namespace phongpipe {
 enum class SeriesFit {
   taylor,     // the paper's series about the expansion point
   six_point,  // through the corners and the middles of the edges
-  weighted,   // least squares over ten points, specular ones by the sensitivity of the power
-  focused     // the same; the specular ten points close in on the highlight
+  weighted,   // near ten points: N·L evenly, N·H by the sensitivity of its power
+  focused     // the same, with the points of N·H closing in on the highlight
 };
 
 // By the enumeration's order.

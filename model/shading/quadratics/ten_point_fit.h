@@ -71,40 +71,4 @@ SixValues<T> fit_ten_points(const Values<T, kTenPoints>& f, const Values<T, kTen
   return result;
 }
 
-// The same with weights that depend on the kind of point only: a fixed map.
-struct SpreadByKind {
-  double corner, middle, inner, centre;
-};
-
-template <typename T>
-SixValues<T> fit_ten_points(const Values<T, kTenPoints>& f, const SpreadByKind& s) {
-  const double inverse = 1 / (s.corner + 9 * s.inner + s.middle);
-  const double e = s.corner + 4 * s.middle;
-  const double p = 1.0 / 3 + 9 * s.centre * inverse, q = 3 * e * inverse - 3;
-  const double t = 3 * s.corner + 48 * s.middle - 3 * e * e * inverse;
-  const double inverse_det = 1 / (p * t + 3 * s.centre * q * q);
-  // What Σ line and around contribute to 3g and z, and these to all corners and to all middles.
-  const double g_lines = 3 * s.centre * inverse * (t + q * e) * inverse_det;
-  const double g_around = -3 * s.centre * q * inverse_det;
-  const double z_lines = inverse * (3 * s.centre * q - p * e) * inverse_det;
-  const double z_around = p * inverse_det;
-  const auto corners = [&](double g, double z) { return s.corner * (z - inverse * (g + e * z)); };
-  const auto middles = [&](double g, double z) {
-    return s.middle * (inverse * (g + e * z) - 4 * z);
-  };
-
-  const Differences<T> b(f);
-  const T lines = b.line[0] + b.line[1] + b.line[2];
-  const T at_corners =
-      lines * T(corners(g_lines, z_lines)) + b.around * T(corners(g_around, z_around));
-  const T at_middles =
-      lines * T(middles(g_lines, z_lines)) + b.around * T(middles(g_around, z_around));
-  SixValues<T> result;
-  for (std::size_t k = 0; k < 3; ++k) {
-    result.corner[k] = f[k] + b.line[k] * T(s.corner * inverse) + at_corners;
-    result.middle[k] = f[3 + k] - b.line[k] * T(s.middle * inverse) + at_middles;
-  }
-  return result;
-}
-
 }  // namespace phongpipe

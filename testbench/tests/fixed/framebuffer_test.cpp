@@ -67,7 +67,7 @@ TEST(Framebuffer, ASpanIsWrittenAsItsPixelsAre) {
     span.row.x = random.integer(0, 3);
     span.row.y = random.integer(0, 2);
     span.row.length = random.integer(1, 4 - span.row.x);
-    span.depth = std::int64_t{random.integer(-10, 265)} << kDepthFraction;
+    span.depth = random.integer(-10, 265) * (std::int64_t{1} << kDepthFraction);
     span.depth_step = random.integer(-(3 << kDepthFraction), 3 << kDepthFraction);
     const std::array<std::uint32_t, 4> values = {1, 2, 3, 4};
     std::array<std::uint8_t, 4> written = {};

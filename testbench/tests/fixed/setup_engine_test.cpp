@@ -110,7 +110,8 @@ TEST(SetupEngine, ScalesSeriesToTheirOutputs) {
 
 // Corners at the centres of pixels 0 and 8 of line 0, with these normals; so the normal at pixel
 // (4, 0) is their mean.
-TriangleSetup set_up_between(const Vec3& left, const Vec3& right) {
+TriangleSetup set_up_between(const Vec3& left, const Vec3& right,
+                             SeriesFit fit = SeriesFit::taylor) {
   const Scene scene = lit_scene(64, 64);
   Geometry geometry;
   geometry.materials = {grey_material(0.5, 0.25, 20)};
@@ -124,7 +125,9 @@ TriangleSetup set_up_between(const Vec3& left, const Vec3& right) {
   v[0].normal = left;
   v[1].normal = right;
   v[2].normal = Vec3(0, 0, 1);
-  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24);
+  DatapathConfiguration configuration;
+  configuration.series_fit = fit;
+  const FrameSetup frame(scene, geometry, configuration, 24);
   return SetupEngine(frame, geometry).set_up(0, 4, 0);
 }
 
@@ -132,6 +135,14 @@ TEST(SetupEngine, ReportsOpposedNormals) {
   EXPECT_FALSE(set_up_between(Vec3(0.6, 0, 0.8), Vec3(-0.6, 0, 0.8)).overflow);
   EXPECT_TRUE(set_up_between(Vec3(1, 0, 0), Vec3(-1, 0, 0)).overflow) << "C = 0: not a number";
   EXPECT_TRUE(set_up_between(Vec3(1, 0, 1e-9), Vec3(-1, 0, 0)).overflow) << "T5 beyond 63 bits";
+}
+
+// The sampled fits only need a normal at their points; the middle of this edge has none.
+TEST(SetupEngine, ReportsSamplesWithoutANormal) {
+  for (const SeriesFit fit : {SeriesFit::six_point, SeriesFit::weighted, SeriesFit::focused}) {
+    EXPECT_FALSE(set_up_between(Vec3(1, 0, 1e-3), Vec3(-1, 0, 0), fit).overflow);
+    EXPECT_TRUE(set_up_between(Vec3(1, 0, 0), Vec3(-1, 0, 0), fit).overflow);
+  }
 }
 
 }  // namespace

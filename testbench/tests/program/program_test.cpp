@@ -120,7 +120,8 @@ TEST_F(Program, VerifyWritesEveryKeyAndThreePictures) {
 }
 
 TEST_F(Program, JsonAloneGoesToStandardOutput) {
-  const ProcessOutput output = run({"verify", "sphere", "--json", "-"});
+  const ProcessOutput output =
+      run_process({"sh", "-c", PHONGPIPE_PROGRAM " verify sphere --json - 2>/dev/null"});
   EXPECT_TRUE(nlohmann::json::accept(output.text)) << output.text;
 }
 
@@ -199,6 +200,28 @@ TEST_F(Program, PhongRendersWhatThePipelineDoesNotSimulateYet) {
                  "two.toml: several lights are not simulated yet");
 }
 
+TEST_F(Program, CompareWritesAPageTablesAndCurves) {
+  const ProcessOutput output = run({"compare", "sphere", "--out", folder_.string(), "--json",
+                                    file("c.json"), "--csv", file("c.csv")});
+  ASSERT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(read_whole_file(file("sphere-methods.html")).find("sphere-gouraud-error.png"),
+            std::string::npos);
+  EXPECT_TRUE(fs::exists(file("sphere-gouraud-error.png")));
+  EXPECT_EQ(json("c.json")[0]["methods"][0]["method"], "flat");
+  ASSERT_EQ(run({"compare", "--curve", "size", "--out", folder_.string()}).status, 0);
+  EXPECT_EQ(read_whole_file(file("size.svg")).substr(0, 4), "<svg");
+  expect_refused({"compare"}, "nothing to compare");
+  expect_refused({"compare", "--curve", "colour"}, "curvature");
+}
+
+TEST_F(Program, RenderTakesAnyMethodAndRefusesByName) {
+  EXPECT_EQ(run({"render", "teapot", "--method", "gouraud", "-o", file("g.png")}).status, 0);
+  expect_refused({"render", "torus", "--method", "otm", "-o", file("o.png")},
+                 "otm cannot render it");
+  expect_refused({"render", "torus", "--method", "goraud", "-o", file("o.png")},
+                 "did you mean gouraud");
+}
+
 TEST_F(Program, AnEmptyPictureIsNoPass) {
   std::string text = read_whole_file(fs::path(PHONGPIPE_SCENES) / "sphere.toml");
   const std::string object = "primitive = \"sphere\"\n";
@@ -239,8 +262,10 @@ TEST_F(Program, BadFilesAreNamedWithTheirLine) {
 }
 
 TEST_F(Program, HelpHasAnExampleAtEachLevel) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"verify", "--help"}, {"render", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"verify", "--help"},
+                                                    {"render", "--help"},
+                                                    {"compare", "--help"}}) {
     const ProcessOutput output = run(arguments);
     EXPECT_EQ(output.status, 0);
     EXPECT_NE(output.text.find("Example: phongpipe"), std::string::npos) << output.text;

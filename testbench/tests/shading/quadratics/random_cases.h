@@ -49,8 +49,7 @@ class RandomCases {
     const double angle = spread / 2 * kDegrees, start = uniform(0, 360);
     std::array<Vec, 3> result;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double around =
-          (start + 120 * static_cast<double>(i) + uniform(-40, 40)) * kDegrees;
+      const double around = (start + 120 * static_cast<double>(i) + uniform(-40, 40)) * kDegrees;
       result[i] = std::cos(angle) * axis +
                   std::sin(angle) * (std::cos(around) * side + std::sin(around) * up);
     }
