@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "model/shading/halfway.h"
 #include "model/shading/quadratics/cosine_series.h"
 
 namespace phongpipe {
@@ -51,14 +52,8 @@ TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInp
 
   CosineSeries<T> series;
   if (plan.local_viewer) {
-    // The paper's H = E + L, with E interpolated between unit vectors.
-    std::array<Vector3<T>, 3> halfway;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vector3<T>& e = triangle.eye[i];
-      halfway[i] = e * rsqrt(e.dot(e)) + light.to_light;
-    }
-    series = fit_series(plan.fit, interpolate, triangle.normal, light.to_light, halfway,
-                        light.sharpness);
+    series = fit_series(plan.fit, interpolate, triangle.normal, light.to_light,
+                        halfway_at_corners(triangle.eye, light.to_light), light.sharpness);
   } else {
     series = fit_series(plan.fit, interpolate, triangle.normal, light.to_light, light.halfway,
                         light.sharpness);

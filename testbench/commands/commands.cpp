@@ -33,7 +33,9 @@ std::filesystem::path find_scene(const std::string& name) {
 }
 
 void HardwareOptions::add_to(CLI::App& command) {
-  command.add_option("--hardware", hardware, "Preset (paper-1k, paper-8k) or hardware TOML file")
+  command
+      .add_option("--hardware", hardware,
+                  "Preset (default, paper-1k, paper-8k) or hardware TOML file")
       ->capture_default_str();
   command
       .add_option("--set", overrides,

@@ -21,7 +21,7 @@ std::filesystem::path find_scene(const std::string& name);
 
 // What several commands take.
 struct HardwareOptions {
-  std::string hardware = "paper-1k";
+  std::string hardware = "default";
   std::vector<std::string> overrides;
 
   void add_to(CLI::App& command);

@@ -1,7 +1,11 @@
-// Bishop & Weimer's pixel loop with other quadratics than their Taylor series: what the setup engine
-// makes of a triangle by SeriesFit. The same 2 additions a pixel for each component.
+// Bishop & Weimer's pixel loop with other quadratics than their Taylor series: what the setup
+// engine makes of a triangle by SeriesFit. The same 2 additions a pixel for each component.
 #pragma once
 
+#include <cmath>
+#include <type_traits>
+
+#include "model/shading/halfway.h"
 #include "model/shading/methods/forward_differences.h"
 #include "model/shading/methods/power.h"
 #include "model/shading/methods/shading_input.h"
@@ -15,7 +19,14 @@ class FittedSeries {
   explicit FittedSeries(const ShadingInput<T>& in) {
     const Interpolator<T> interpolate = interpolator(in);
     if constexpr (kParts == Parts::diffuse) {
-      series_.light = fit_light(kFit, interpolate, in.normal, in.light);
+      const BarycentricBasis<T> basis(interpolate.coordinate_1(), interpolate.coordinate_2());
+      if constexpr (kFit == SeriesFit::six_point) {
+        const NormalSamples<T, kSixPoints> samples(in.normal);
+        series_.light = basis(detail::through(samples.cosines(in.light)));
+      } else {
+        const NormalSamples<T, kNinePoints> samples(in.normal);
+        series_.light = basis(fit_nine_points(samples.cosines(in.light)));
+      }
     } else {
       const T sharpness(std::max(0.0, in.power->shininess() - 1));
       if constexpr (kLocalViewer) {

@@ -1,7 +1,12 @@
 // The methods by name, with what their sources claim.
+
+#include <algorithm>
+#include <iterator>
+
 #include "model/shading/methods/angle_interpolation.h"
 #include "model/shading/methods/duff.h"
 #include "model/shading/methods/exact_phong.h"
+#include "model/shading/methods/fitted_shading.h"
 #include "model/shading/methods/intensity_shader.h"
 #include "model/shading/methods/intensity_shading.h"
 #include "model/shading/methods/method_shader.h"
@@ -109,6 +114,30 @@ std::vector<ShadingMethod> classic_methods() {
   };
 }
 
+// A fit for an eye at infinity, and the same for one at a finite distance.
+template <SeriesFit kFit>
+std::vector<ShadingMethod> fitted_methods(const char* name, const char* local_name,
+                                          const char* description) {
+  const char* const source = "this project, model/shading/quadratics";
+  return {
+      method<Fitted<kFit, false>::template Series>(name, description, source, halfway()),
+      method<Fitted<kFit, true>::template Series>(local_name, description, source, taylor_local())};
+}
+
+std::vector<ShadingMethod> quadratic_methods() {
+  std::vector<ShadingMethod> all;
+  const auto add = [&all](std::vector<ShadingMethod> methods) {
+    std::move(methods.begin(), methods.end(), std::back_inserter(all));
+  };
+  add(fitted_methods<SeriesFit::six_point>("six-point", "six-point-local",
+                                           "quadratics through corners and middles of edges"));
+  add(fitted_methods<SeriesFit::weighted>(
+      "weighted", "weighted-local", "quadratics near ten points, by the power's sensitivity"));
+  add(fitted_methods<SeriesFit::focused>("focused", "focused-local",
+                                         "the same, with the points closing in on the highlight"));
+  return all;
+}
+
 std::vector<ShadingMethod> hast_methods() {
   return {
       method<Hybrid>("hybrid", "Gouraud's diffuse component, R·V by eq. 17", kHast, mirror(),
@@ -143,7 +172,9 @@ std::vector<ShadingMethod> hast_methods() {
 const std::vector<ShadingMethod>& shading_methods() {
   static const std::vector<ShadingMethod> methods = [] {
     std::vector<ShadingMethod> all = classic_methods();
-    for (ShadingMethod& method : hast_methods()) all.push_back(std::move(method));
+    for (auto methods : {quadratic_methods(), hast_methods()}) {
+      std::move(methods.begin(), methods.end(), std::back_inserter(all));
+    }
     return all;
   }();
   return methods;

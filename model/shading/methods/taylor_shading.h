@@ -2,6 +2,7 @@
 // each component. The coefficients are those of model/shading/taylor.h.
 #pragma once
 
+#include "model/shading/halfway.h"
 #include "model/shading/methods/forward_differences.h"
 #include "model/shading/methods/shading_input.h"
 
@@ -18,12 +19,7 @@ class TaylorSeries {
     diffuse_ = normal.infinite(in.light);
     if constexpr (kParts == Parts::full) {
       if constexpr (kLocalViewer) {
-        // The paper's H = E + L, with E interpolated between unit vectors.
-        std::array<Vector3<T>, 3> halfway;
-        for (std::size_t i = 0; i < 3; ++i) {
-          const Vector3<T>& eye = in.eye[i];
-          halfway[i] = eye * rsqrt(eye.dot(eye)) + in.light;
-        }
+        const auto halfway = halfway_at_corners(in.eye, in.light);
         const Linear<Vector3<T>> h = interpolate(halfway[0], halfway[1], halfway[2]);
         halfway_ = h.c;
         highlight_ = normal.finite(h);

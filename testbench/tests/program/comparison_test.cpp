@@ -76,6 +76,16 @@ TEST(Comparison, ExactMethodsEqualPhongAndApproximationsRankAsTheyShould) {
   EXPECT_LT(result_of(c, "gouraud").clocks_per_pixel, result_of(c, "phong").clocks_per_pixel);
 }
 
+TEST(Comparison, FittedQuadraticsBeatTheTaylorSeriesAtEqualCostAPixel) {
+  const Comparison c = compare_scene("teapot");
+  const MethodResult& taylor = result_of(c, "taylor");
+  for (const char* name : {"six-point", "weighted", "focused"}) {
+    const MethodResult& fitted = result_of(c, name);
+    EXPECT_EQ(fitted.costs.pixel, taylor.costs.pixel) << name;
+    EXPECT_LT(fitted.error.largest, 0.5 * taylor.error.largest) << name;
+  }
+}
+
 TEST(Comparison, RefusesByNameAndSaysWhy) {
   const Comparison c = compare_scene("torus");  // a local viewer
   EXPECT_NE(result_of(c, "spot-reflection").refused, "");

@@ -139,7 +139,8 @@ TEST_F(Program, OverBudgetFails) {
 
 TEST_F(Program, TheHashNamesTheConfiguration) {
   const auto hash = [this](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"verify", "sphere", "--json", file("r.json")};
+    std::vector<std::string> arguments = {"verify",       "sphere",   "--json",
+                                          file("r.json"), "--budget", "1000"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(run(arguments).status, 0);
     return json("r.json")["configuration_hash"];
@@ -168,7 +169,8 @@ diffuse = 0.8
 specular = 0.5
 shininess = 10
 )");
-  const ProcessOutput output = run({"verify", scene, "--json", file("r.json")});
+  const ProcessOutput output =
+      run({"verify", scene, "--hardware", "paper-1k", "--json", file("r.json")});
   EXPECT_EQ(output.status, 1) << output.text;
   EXPECT_EQ(json("r.json")["coefficient_overflows"], 1);
   EXPECT_EQ(json("r.json")["mismatches"]["model_rtl"], 0);  // all wrap alike

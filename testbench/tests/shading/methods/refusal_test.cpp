@@ -33,9 +33,10 @@ TEST(Refusal, NamesAreUnique) {
 
 TEST(Refusal, TheHighlightsFormDecides) {
   OneTriangle t;
-  EXPECT_EQ(renderers(t),
-            (Names{"flat", "gouraud", "phong", "duff", "duff-table", "taylor", "taylor-local",
-                   "otm", "otm-halfway", "reflection", "duff-blinn", "reflection-blinn"}));
+  EXPECT_EQ(renderers(t), (Names{"flat", "gouraud", "phong", "duff", "duff-table", "taylor",
+                                 "taylor-local", "otm", "otm-halfway", "reflection", "duff-blinn",
+                                 "reflection-blinn", "six-point", "six-point-local", "weighted",
+                                 "weighted-local", "focused", "focused-local"}));
   EXPECT_EQ(reason("hybrid", t), "its highlight is R·V, the scene's N·H");
   t.scene.shading.highlight = Highlight::reflection;
   EXPECT_EQ(renderers(t), (Names{"flat", "gouraud", "phong", "hybrid", "duff-eq17", "duff-eq33",
@@ -47,7 +48,8 @@ TEST(Refusal, TheHighlightsFormDecides) {
 TEST(Refusal, LocalViewer) {
   OneTriangle t;
   t.eye_at(Vec3(0, 0, 100));
-  EXPECT_EQ(renderers(t), (Names{"flat", "gouraud", "phong", "taylor-local"}));
+  EXPECT_EQ(renderers(t), (Names{"flat", "gouraud", "phong", "taylor-local", "six-point-local",
+                                 "weighted-local", "focused-local"}));
   EXPECT_EQ(reason("otm", t), "it has the eye at infinity, the scene a local viewer");
   t.scene.shading.highlight = Highlight::reflection;
   EXPECT_EQ(renderers(t), (Names{"flat", "gouraud", "phong", "viewpoint-reflection"}));
