@@ -27,15 +27,15 @@ class PixelTiming {
     // What cycles[i] may alias, as far as the compiler can tell, is kept in locals meanwhile.
     std::array<Cycle, kDatapathLatency> out = out_;
     Cycle in = in_, last_out = last_out_, free_from = free_from_, taken = 0;
-    std::size_t place = read_place_;
+    std::size_t place = read_place_, out_place = out_place_;
     Cycle* const reads = read_.data();
     const std::size_t depth = read_.size();
     for (std::size_t i = 0; i < count; ++i) {
-      in = std::max({asked, in + 1, out[0]});
+      in = std::max({asked, in + 1, out[out_place]});
       if (i == 0) taken = in;
       last_out = std::max({in + kDatapathLatency, last_out + 1, reads[place] + 1});
-      std::copy(out.begin() + 1, out.end(), out.begin());
-      out.back() = last_out;
+      out[out_place] = last_out;
+      out_place = (out_place + 1) % out.size();
       reads[place] = std::max(last_out + 1, free_from);
       free_from = reads[place] + cycles[i];
       if (++place == depth) place = 0;
@@ -46,6 +46,7 @@ class PixelTiming {
     last_out_ = last_out;
     free_from_ = free_from;
     read_place_ = place;
+    out_place_ = out_place;
     return taken;
   }
 
@@ -65,7 +66,8 @@ class PixelTiming {
 
  private:
   Cycle in_ = -1, last_out_ = -1, free_from_ = 0;
-  std::array<Cycle, kDatapathLatency> out_;  // of the last pixels, the earliest first
+  std::array<Cycle, kDatapathLatency> out_;  // of the last pixels
+  std::size_t out_place_ = 0;                // of the earliest of them
   std::vector<Cycle> read_;
   std::size_t read_place_ = 0;
 };

@@ -23,24 +23,24 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
 
   // Writes no earlier than `earliest`; returns the cycle of the writing. Waits for a place.
   Cycle write(T item, Cycle earliest) {
-    while (size_ == places_.size()) wait(read_event_);
+    while (size_ == places_.size()) wait_for(read_event_, writer_waits_);
     Place& place = places_[(first_ + size_) % places_.size()];
     place.item = std::move(item);
     place.written_at = std::max(earliest, place.read_at + 1);
     ++size_;
-    written_event_.notify(sc_core::SC_ZERO_TIME);
+    wake(written_event_, reader_waits_);
     return place.written_at;
   }
 
   // No more items will come.
   void close() {
     closed_ = true;
-    written_event_.notify(sc_core::SC_ZERO_TIME);
+    wake(written_event_, reader_waits_);
   }
 
   // Waits for an item; false where there will be none.
   bool wait_for_item() {
-    while (size_ == 0 && !closed_) wait(written_event_);
+    while (size_ == 0 && !closed_) wait_for(written_event_, reader_waits_);
     return size_ > 0;
   }
   // The front item stays where it is until another one is written to its place, that is, as long as
@@ -53,13 +53,23 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
     places_[first_].read_at = cycle;
     first_ = (first_ + 1) % places_.size();
     --size_;
-    read_event_.notify(sc_core::SC_ZERO_TIME);
+    wake(read_event_, writer_waits_);
   }
 
   std::size_t size() const { return size_; }
   std::size_t depth() const { return places_.size(); }
 
  private:
+  void wait_for(const sc_core::sc_event& event, bool& waiting) {
+    waiting = true;
+    wait(event);
+  }
+  // A notification nobody waits for would cost the kernel as much as one that somebody does.
+  static void wake(sc_core::sc_event& event, bool& waiting) {
+    if (waiting) event.notify(sc_core::SC_ZERO_TIME);
+    waiting = false;
+  }
+
   struct Place {
     T item{};
     Cycle written_at = -1;
@@ -68,6 +78,7 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
   std::vector<Place> places_;
   std::size_t first_ = 0, size_ = 0;
   bool closed_ = false;
+  bool writer_waits_ = false, reader_waits_ = false;
   sc_core::sc_event written_event_, read_event_;
 };
 
