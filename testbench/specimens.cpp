@@ -130,6 +130,7 @@ std::vector<Reflection<double>> Specimen::reflect(const ShadingMethod& method) c
 std::vector<Specimen> random_specimens(const SpecimenKind& kind, int count, std::uint32_t seed) {
   Random random(seed);
   std::vector<Specimen> specimens;
+  specimens.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) specimens.push_back(random_specimen(kind, random));
   return specimens;
 }
