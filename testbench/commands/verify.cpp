@@ -78,7 +78,7 @@ void add_verify(CLI::App& application, Run& run) {
       ->check(CLI::ExistingDirectory);
   command->footer(
       "Exit status: 0 all holds, 1 a check failed, 2 bad usage or input.\n"
-      "Example: phongpipe verify scene.toml --budget 20 --set rom_address_bits=12 --out "
+      "Example: phongpipe verify scene.toml --budget 80 --set rom_address_bits=12 --out "
       "pictures\n");
   options->hardware.add_to(*command);
   command->callback([options, &run] { run = [options] { return verify_scenes(*options); }; });
