@@ -10,6 +10,7 @@
 #include "model/scene/spelling.h"
 #include "model/scene/text_file.h"
 #include "model/scene/toml_reader.h"
+#include "testbench/fnv_hash.h"
 #include "testbench/installation.h"
 
 namespace phongpipe {
@@ -176,15 +177,15 @@ void suit_scene(Hardware& hardware, const Scene& scene, const Geometry& geometry
 std::string configuration_hash(const Hardware& hardware) {
   Hardware copy = hardware;
   copy.choose_channels = false;
-  std::uint64_t hash = 14695981039346656037U;  // FNV-1a, 64 bits
+  FnvHash hash;
   const auto add = [&hash](const std::string& text) {
     for (const char c : text + "\n") {
-      hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211U;
+      hash.add(static_cast<unsigned char>(c));
     }
   };
   for (const Setting& setting : settings(copy)) add(setting.name() + "=" + setting.value());
   add("technology=" + hardware.technology.name);
-  return fmt::format("{:016x}", hash);
+  return fmt::format("{:016x}", hash.value());
 }
 
 }  // namespace phongpipe

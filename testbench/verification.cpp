@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/scene/input_error.h"
+#include "testbench/fnv_hash.h"
 #include "testbench/pictures.h"
 #include "testbench/process.h"
 #include "testbench/rtl/rtl_library.h"
@@ -29,7 +30,7 @@ class Comparison {
   explicit Comparison(const ModelFrame& model) : model_(model) {}
 
   void observe(const ShadedPixel& pixel, std::int64_t cycle) {
-    hash_ = (hash_ ^ static_cast<std::uint64_t>(cycle)) * 1099511628211U;  // FNV-1a over words
+    hash_.add(static_cast<std::uint64_t>(cycle));
     if (place_ < model_.stream.size() && pixel == model_.stream[place_]) {
       ++place_;
       return;
@@ -47,7 +48,7 @@ class Comparison {
     account.rom_load_cycles = result.rom_load_cycles;
     account.datapath_busy_cycles = result.datapath_busy_cycles;
     account.failure = result.failure;
-    account.cycles_hash = hash_;
+    account.cycles_hash = hash_.value();
     account.mismatches = mismatches_;
     if (place_ < model_.stream.size()) {
       account.mismatches += model_.stream.size() - place_;
@@ -77,7 +78,7 @@ class Comparison {
   const ModelFrame& model_;
   std::size_t place_ = 0;
   std::uint64_t mismatches_ = 0;
-  std::uint64_t hash_ = 14695981039346656037U;
+  FnvHash hash_;  // of the cycles
   std::optional<Divergence> first_;
 };
 

@@ -2,52 +2,27 @@
 // which triangles it may shade stands on these figures.
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "model/shading/taylor.h"
+#include "testbench/tests/shading/random_normals.h"
 
 namespace phongpipe {
 namespace {
 
-using Vec = Vector3<double>;
-
-constexpr double kDegrees = 3.14159265358979323846 / 180;
 constexpr double kLsb = 1.0 / 255;
 
-class RandomTriangles {
+class RandomTriangles : public RandomNormals {
  public:
-  explicit RandomTriangles(unsigned seed) : generator_(seed) {}
+  using RandomNormals::RandomNormals;
 
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
-  Vec unit() {
-    for (;;) {
-      const Vec v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-    }
-  }
-  // Three normals `angle` from an axis, evenly around it: `spread` is between any two of them.
+  // Three normals evenly around an axis: `spread` is between any two of them, in radians.
   std::array<Vec, 3> normals(double spread) {
-    const Vec axis = unit(), side = axis.cross(unit()).normalized(), up = axis.cross(side);
-    const double angle = std::asin(std::sin(spread / 2) / std::sin(60 * kDegrees));
-    std::array<Vec, 3> result;
-    const double start = uniform(0, 6.3);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double around = start + (120 * static_cast<double>(i) + uniform(-40, 40)) * kDegrees;
-      result[i] = std::cos(angle) * axis +
-                  std::sin(angle) * (std::cos(around) * side + std::sin(around) * up);
-    }
-    return result;
+    return cone(std::asin(std::sin(spread / 2) / std::sin(60 * kDegrees)), 6.3);
   }
-
- private:
-  std::mt19937 generator_;
 };
 
 struct DiffuseError {

@@ -3,21 +3,16 @@
 // not matter.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include "model/shading/quadratics/best_quadratic.h"
 #include "model/shading/quadratics/cosine_series.h"
+#include "testbench/tests/shading/random_normals.h"
 
 namespace phongpipe {
-
-using Vec = Vector3<double>;
-
-constexpr double kDegrees = 3.14159265358979323846 / 180;
 
 struct CosineCase {
   std::array<Vec, 3> normal;
@@ -30,31 +25,12 @@ struct CosineCase {
   }
 };
 
-class RandomCases {
+class RandomCases : public RandomNormals {
  public:
-  explicit RandomCases(unsigned seed) : generator_(seed) {}
+  using RandomNormals::RandomNormals;
 
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
-  Vec unit() {
-    for (;;) {
-      const Vec v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-    }
-  }
   // `spread`: across the cone, in degrees.
-  std::array<Vec, 3> normals(double spread) {
-    const Vec axis = unit(), side = axis.cross(unit()).normalized(), up = axis.cross(side);
-    const double angle = spread / 2 * kDegrees, start = uniform(0, 360);
-    std::array<Vec, 3> result;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double around = (start + 120 * static_cast<double>(i) + uniform(-40, 40)) * kDegrees;
-      result[i] = std::cos(angle) * axis +
-                  std::sin(angle) * (std::cos(around) * side + std::sin(around) * up);
-    }
-    return result;
-  }
+  std::array<Vec, 3> normals(double spread) { return cone(spread / 2 * kDegrees, 360 * kDegrees); }
   // Lit at all corners.
   CosineCase diffuse(double spread) {
     for (;;) {
@@ -69,9 +45,6 @@ class RandomCases {
     if (u + v > 1) u = 1 - u, v = 1 - v;
     return {n, (n[0] * (1 - u - v) + n[1] * u + n[2] * v).normalized(), power};
   }
-
- private:
-  std::mt19937 generator_;
 };
 
 // A triangle whose x and y, from the centroid, are u − ⅓ and v − ⅓.

@@ -1,0 +1,17 @@
+// FNV-1a, 64 bits, over any sequence of words: tells whether two runs are the same.
+#pragma once
+
+#include <cstdint>
+
+namespace phongpipe {
+
+class FnvHash {
+ public:
+  void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 1099511628211U; }
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 14695981039346656037U;
+};
+
+}  // namespace phongpipe
