@@ -14,9 +14,11 @@
 namespace phongpipe {
 
 struct MethodResult {
-  const ShadingMethod* method = nullptr;
+  std::string_view name, source;
   std::string refused;  // why it cannot render the scene; nothing below is filled in then
   std::string note;
+  // The best quadratics: computed offline, by no method. Costs and times are not filled in then.
+  bool is_limit = false;
 
   MethodCosts costs;
   double clocks_per_pixel = 0;  // on the configured units, setup amortised over the scene
@@ -38,7 +40,8 @@ struct Comparison {
   Hardware hardware;
   int width = 0, height = 0, channels = 3;
   std::size_t triangles = 0, spans = 0, pixels = 0;  // with a pixel; rows; shaded
-  std::vector<MethodResult> methods;
+  std::size_t split = 0, pieces = 0;  // triangles that fitted quadratics get in so many pieces
+  std::vector<MethodResult> methods;  // the limit of quadratics last
 };
 
 Comparison compare(const std::filesystem::path& scene, const Hardware& hardware,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "testbench/curves.h"
 #include "testbench/operation_time.h"
@@ -23,14 +24,30 @@ std::string break_even_text(std::optional<int> pixels) {
 
 double wall_clock_of_phong(const Comparison& comparison) {
   for (const MethodResult& result : comparison.methods) {
-    if (result.method->name == "phong") return result.wall_clock_ns;
+    if (result.name == "phong") return result.wall_clock_ns;
   }
   return 0;
+}
+
+std::string subdivision_text(const Comparison& c) {
+  if (c.split == 0) return "";
+  return fmt::format(
+      "{} triangles that turn by more than {}° are split into {} for the fitted quadratics\n",
+      c.split, c.hardware.datapath.subdivide_degrees, c.pieces);
 }
 
 nlohmann::ordered_json operations_json(const OperationCounts& c) {
   return {{"add", c.add},   {"multiply", c.multiply}, {"divide", c.divide},
           {"sqrt", c.sqrt}, {"rsqrt", c.rsqrt},       {"read", c.read}};
+}
+
+// The paper's own series, for the eye where the scene has it.
+double largest_error_of_taylor(const Comparison& comparison) {
+  for (const MethodResult& result : comparison.methods) {
+    const bool taylor = result.name == "taylor" || result.name == "taylor-local";
+    if (taylor && result.refused.empty()) return result.error.largest;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 nlohmann::ordered_json finite_or_null(double value) {
@@ -65,26 +82,32 @@ Picture error_picture(const MethodResult& result, const Comparison& comparison) 
 
 std::string comparison_text(const Comparison& comparison) {
   std::string text = fmt::format(
-      "{}: {} triangles, {} spans, {} pixels shaded; clock {:.2f} ns ({})\n"
-      "{:<20} {:>12} {:>14} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8} {:>7}\n"
-      "{:<20} {:>12} {:>14} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8} {:>7}\n",
+      "{}: {} triangles, {} spans, {} pixels shaded; clock {:.2f} ns ({})\n{}"
+      "{:<20} {:>12} {:>14} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8} {:>8} {:>7}\n"
+      "{:<20} {:>12} {:>14} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8} {:>8} {:>7}\n",
       comparison.scene.string(), comparison.triangles, comparison.spans, comparison.pixels,
-      comparison.hardware.clock_ns(), comparison.hardware.technology.name, "method", "a pixel",
-      "a triangle", "clocks", "ns", "speed", "pays from", "largest", "RMS", "seam", "",
-      "+/×/÷/√/read", "+/×/÷/√/read", "a pixel", "a pixel", "×Phong", "pixels", "LSB", "LSB",
-      "LSB");
+      comparison.hardware.clock_ns(), comparison.hardware.technology.name,
+      subdivision_text(comparison), "method", "a pixel", "a triangle", "clocks", "ns", "speed",
+      "pays from", "largest", "largest", "RMS", "seam", "", "+/×/÷/√/read", "+/×/÷/√/read",
+      "a pixel", "a pixel", "×Phong", "pixels", "LSB", "×Taylor", "LSB", "LSB");
   const double phong = wall_clock_of_phong(comparison);
+  const double taylor = largest_error_of_taylor(comparison);
   for (const MethodResult& r : comparison.methods) {
     if (!r.refused.empty()) {
-      text += fmt::format("{:<20} refused: {}\n", r.method->name, r.refused);
+      text += fmt::format("{:<20} refused: {}\n", r.name, r.refused);
       continue;
     }
-    text += fmt::format(
-        "{:<20} {:>12} {:>14} {:>8.2f} {:>8.2f} {:>7.2f} {:>10} {:>8.2f} {:>8.3f} {:>7.2f}{}\n",
-        r.method->name, operations_text(r.costs.pixel + r.costs.combine),
-        operations_text(r.costs.triangle), r.clocks_per_pixel, r.ns_per_pixel,
-        phong / r.wall_clock_ns, break_even_text(r.break_even_pixels), r.error.largest,
-        r.error.rms(), r.seam, r.note.empty() ? "" : "  " + r.note);
+    const std::string cost =
+        r.is_limit
+            ? fmt::format("{:>12} {:>14} {:>8} {:>8} {:>7} {:>10}", "–", "–", "–", "–", "–", "–")
+            : fmt::format("{:>12} {:>14} {:>8.2f} {:>8.2f} {:>7.2f} {:>10}",
+                          operations_text(r.costs.pixel + r.costs.combine),
+                          operations_text(r.costs.triangle), r.clocks_per_pixel, r.ns_per_pixel,
+                          phong / r.wall_clock_ns, break_even_text(r.break_even_pixels));
+    const double ratio = r.error.largest / taylor;
+    text += fmt::format("{:<20} {} {:>8.2f} {:>8} {:>8.3f} {:>7.2f}{}\n", r.name, cost,
+                        r.error.largest, std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "–",
+                        r.error.rms(), r.seam, r.note.empty() ? "" : "  " + r.note);
   }
   return text +
          "a pixel, a triangle: operations counted, one channel, power by table; clocks: on the "
@@ -96,20 +119,24 @@ std::string comparison_text(const Comparison& comparison) {
 nlohmann::ordered_json comparison_json(const Comparison& comparison) {
   nlohmann::ordered_json methods = nlohmann::ordered_json::array();
   const double phong = wall_clock_of_phong(comparison);
+  const double taylor = largest_error_of_taylor(comparison);
   for (const MethodResult& r : comparison.methods) {
-    nlohmann::ordered_json j = {{"method", r.method->name}, {"source", r.method->source}};
+    nlohmann::ordered_json j = {{"method", r.name}, {"source", r.source}};
     if (!r.refused.empty()) {
       j["refused"] = r.refused;
-    } else {
+      methods.push_back(std::move(j));
+      continue;
+    }
+    j["note"] = r.note;
+    if (!r.is_limit) {
       nlohmann::ordered_json pays = nlohmann::ordered_json::object();
       for (const MethodResult& other : comparison.methods) {
-        if (!other.refused.empty() || &other == &r) continue;
+        if (!other.refused.empty() || other.is_limit || &other == &r) continue;
         const auto pixels = break_even_pixels(r.costs, other.costs, sequential_operations);
-        pays[std::string(other.method->name)] =
+        pays[std::string(other.name)] =
             pixels ? nlohmann::ordered_json(*pixels) : nlohmann::ordered_json(nullptr);
       }
-      j.update({{"note", r.note},
-                {"operations",
+      j.update({{"operations",
                  {{"pixel", operations_json(r.costs.pixel + r.costs.combine)},
                   {"span", operations_json(r.costs.span)},
                   {"triangle", operations_json(r.costs.triangle)}}},
@@ -118,18 +145,20 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
                 {"sequential_operations_per_pixel", r.operations_per_pixel},
                 {"cycles_per_triangle", clocks(r.costs.triangle, comparison.hardware.pipeline)},
                 {"speed_over_phong", phong / r.wall_clock_ns},
-                {"max_lsb", r.error.largest},
-                {"rms_lsb", r.error.rms()},
-                {"psnr_db", finite_or_null(r.error.psnr_db())},
-                {"seam_lsb", r.seam},
                 {"break_even_pixels", pays}});
     }
+    j.update({{"max_lsb", r.error.largest},
+              {"max_over_taylor", finite_or_null(r.error.largest / taylor)},
+              {"rms_lsb", r.error.rms()},
+              {"psnr_db", finite_or_null(r.error.psnr_db())},
+              {"seam_lsb", r.seam}});
     methods.push_back(std::move(j));
   }
   return {{"scene", comparison.scene.string()},
           {"triangles", comparison.triangles},
           {"spans", comparison.spans},
           {"pixels", comparison.pixels},
+          {"subdivision", {{"triangles", comparison.split}, {"pieces", comparison.pieces}}},
           {"clock_ns", comparison.hardware.clock_ns()},
           {"methods", methods}};
 }
@@ -141,15 +170,18 @@ std::string comparison_csv(const Comparison& comparison) {
   const double phong = wall_clock_of_phong(comparison);
   for (const MethodResult& r : comparison.methods) {
     if (!r.refused.empty()) {
-      text += fmt::format("{},{},\"{}\",,,,,,,,,,,\n", comparison.scene.string(), r.method->name,
-                          r.refused);
+      text +=
+          fmt::format("{},{},\"{}\",,,,,,,,,,,\n", comparison.scene.string(), r.name, r.refused);
       continue;
     }
     const OperationCounts pixel = r.costs.pixel + r.costs.combine;
-    text += fmt::format("{},{},,{},{},{},{},{},{},{},{},{},{},{}\n", comparison.scene.string(),
-                        r.method->name, pixel.add, pixel.multiply, pixel.divide,
-                        pixel.sqrt + pixel.rsqrt, pixel.read, r.clocks_per_pixel, r.ns_per_pixel,
-                        phong / r.wall_clock_ns, r.error.largest, r.error.rms(), r.seam);
+    const std::string cost =
+        r.is_limit ? ",,,,,,,"
+                   : fmt::format("{},{},{},{},{},{},{},{}", pixel.add, pixel.multiply, pixel.divide,
+                                 pixel.sqrt + pixel.rsqrt, pixel.read, r.clocks_per_pixel,
+                                 r.ns_per_pixel, phong / r.wall_clock_ns);
+    text += fmt::format("{},{},,{},{},{},{}\n", comparison.scene.string(), r.name, cost,
+                        r.error.largest, r.error.rms(), r.seam);
   }
   return text;
 }
@@ -164,11 +196,11 @@ Chart accuracy_against_time(const Comparison& comparison) {
   PlotSeries points;
   points.name = "methods";
   for (const MethodResult& r : comparison.methods) {
-    if (!r.refused.empty()) continue;
+    if (!r.refused.empty() || r.is_limit) continue;
     // Methods that equal Phong but for the last bits stand on the floor of the plot.
     constexpr double kFloor = 0.01;
     points.points.push_back(
-        {r.ns_per_pixel, std::max(kFloor, r.error.largest), std::string(r.method->name)});
+        {r.ns_per_pixel, std::max(kFloor, r.error.largest), std::string(r.name)});
   }
   chart.series.push_back(std::move(points));
   return chart;
@@ -186,7 +218,7 @@ void write_comparison_page(const Comparison& comparison, const std::filesystem::
       "<p>Each method and its error: black 0, blue 1, red 2, yellow 3, white 4 LSB and more.</p>\n",
       escaped(scene), escaped(comparison_text(comparison)), svg(accuracy_against_time(comparison)));
   for (const MethodResult& r : comparison.methods) {
-    const std::string name(r.method->name);
+    const std::string name(r.name);
     if (!r.refused.empty()) {
       page += fmt::format("<figure><figcaption><b>{}</b> refused: {}</figcaption></figure>\n", name,
                           escaped(r.refused));
@@ -199,9 +231,9 @@ void write_comparison_page(const Comparison& comparison, const std::filesystem::
     write_png(folder / error, error_picture(r, comparison));
     page += fmt::format(
         "<figure><img src=\"{}\" alt=\"\"><img src=\"{}\" alt=\"\"><figcaption><b>{}</b> {:.2f} "
-        "LSB, "
-        "{:.2f} ns</figcaption></figure>\n",
-        picture, error, name, r.error.largest, r.ns_per_pixel);
+        "LSB{}</figcaption></figure>\n",
+        picture, error, name, r.error.largest,
+        r.is_limit ? "" : fmt::format(", {:.2f} ns", r.ns_per_pixel));
   }
   write_text(folder / fmt::format("{}-methods.html", scene), page);
   write_text(folder / fmt::format("{}-methods.svg", scene), svg(accuracy_against_time(comparison)));

@@ -138,6 +138,7 @@ std::vector<Setting> settings(Hardware& hardware) {
       choice("datapath", "specular_gate", {"off", "diffuse", "series"}, d.gate),
       choice("datapath", "anchor", {"triangle", "span"}, d.anchor),
       choice("setup_engine", "series", series_fit_names(), d.series_fit),
+      number("setup_engine", "subdivide_degrees", d.subdivide_degrees),
       number("setup_engine", "adders", p.adders.count),
       number("setup_engine", "adders_latency", p.adders.latency),
       number("setup_engine", "adders_interval", p.adders.interval),

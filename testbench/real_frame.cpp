@@ -3,6 +3,7 @@
 #include "model/fixed/constants.h"
 #include "model/scene/input_error.h"
 #include "model/shading/phong.h"
+#include "testbench/best_triangle.h"
 
 namespace phongpipe {
 namespace {
@@ -39,6 +40,14 @@ std::vector<Color> render_phong(const Scene& scene, const Geometry& geometry,
   return render(scene, geometry, visibility, [&](std::uint32_t t) {
     const ScreenTriangle& triangle = geometry.triangles[t];
     return PhongTriangle(scene, geometry.materials[triangle.material], triangle);
+  });
+}
+
+std::vector<Color> render_best(const Scene& scene, const Geometry& geometry,
+                               const Visibility& visibility) {
+  return render(scene, geometry, visibility, [&](std::uint32_t t) {
+    const ScreenTriangle& triangle = geometry.triangles[t];
+    return BestTriangle(scene, geometry.materials[triangle.material], triangle, visibility.rows[t]);
   });
 }
 

@@ -13,6 +13,11 @@ namespace phongpipe {
 std::vector<Color> render_phong(const Scene& scene, const Geometry& geometry,
                                 const Visibility& visibility);
 
+// The limit for six numbers a triangle: the best quadratics in place of each light's cosines, with
+// exact powers; the fading of lights and their cones are exact.
+std::vector<Color> render_best(const Scene& scene, const Geometry& geometry,
+                               const Visibility& visibility);
+
 struct MethodFrame {
   std::vector<Color> colors;
   std::size_t exact_spans = 0;  // that the method left to exact Phong, its own form degenerating

@@ -86,6 +86,10 @@ void report_hardware(Page& page, const Verification& v) {
   const OperationCounts counts = record_setup(v.plan).counts();
   page.line("setup", "{} cycles a triangle for {} additions, {} multiplications, {} 1/√",
             v.systemc.setup_cycles, counts.add, counts.multiply, counts.rsqrt);
+  if (v.triangles_split > 0) {
+    page.line("subdivision", "{} triangles that turn by more than {}° were split into {}",
+              v.triangles_split, d.subdivide_degrees, v.pieces);
+  }
 }
 
 void report_accuracy(Page& page, const Accuracy& accuracy) {
@@ -170,6 +174,7 @@ nlohmann::ordered_json report_json(const Verification& v) {
           {"configuration_hash", configuration_hash(v.hardware)},
           {"triangles", v.triangles},
           {"triangles_read", v.triangles_read},
+          {"subdivision", {{"triangles", v.triangles_split}, {"pieces", v.pieces}}},
           {"pixels", v.pixels},
           {"mismatches",
            {{"model_rtl", v.rtl.mismatches + v.rtl.frame_mismatches},

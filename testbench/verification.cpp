@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/scene/input_error.h"
+#include "model/scene/subdivision.h"
 #include "testbench/fnv_hash.h"
 #include "testbench/pictures.h"
 #include "testbench/process.h"
@@ -177,12 +178,16 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
   v.options = options;
   progress("reading the scene");
   const Scene scene = load_scene(file);
-  const Geometry geometry = make_geometry(scene);
+  const Subdivision subdivision =
+      subdivide(make_geometry(scene), hardware.datapath.subdivide_degrees);
+  const Geometry& geometry = subdivision.geometry;
   v.hardware = hardware;
   suit_scene(v.hardware, scene, geometry);
   v.notes = geometry.notes;
   v.triangles_read = geometry.triangles_read;
-  v.triangles = geometry.triangles.size();
+  v.triangles = geometry.triangles.size() - subdivision.pieces + subdivision.split;
+  v.triangles_split = subdivision.split;
+  v.pieces = subdivision.pieces;
   const FrameSetup frame(scene, geometry, v.hardware.datapath, v.hardware.pipeline.depth_bits);
   v.plan = frame.plan;
   for (const Material& material : geometry.materials) {
@@ -235,6 +240,9 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
   if (!options.pictures.empty()) write_pictures(v, model, frame);
   v.systemc = from_text(systemc.get());
   v.rtl = from_text(rtl.get());
+  for (Account* account : {&v.systemc, &v.rtl}) {
+    if (account->first) account->first->triangle = subdivision.whole[account->first->triangle];
+  }
   return v;
 }
 

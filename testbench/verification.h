@@ -54,7 +54,9 @@ struct Verification {
   std::vector<std::string> notes;
   std::size_t triangles_read = 0;    // of the meshes
   std::size_t triangles = 0;         // after clipping and culling
-  std::size_t triangles_set_up = 0;  // that cover a pixel
+  std::size_t triangles_split = 0;   // that turn too sharply for one series
+  std::size_t pieces = 0;            // that these became
+  std::size_t triangles_set_up = 0;  // that cover a pixel, pieces for those split
   std::uint64_t pixels = 0;          // shaded
   std::uint64_t visible_pixels = 0;
   std::size_t coefficient_overflows = 0;

@@ -14,7 +14,7 @@ std::int64_t ceil_divide(std::int64_t a, std::int64_t b) {
   return -floor_divide(-a, b);
 }
 
-// Inside where a·x + b·y + c ≥ 0, in units of 1/256 pixel; the top-left rule is folded into c.
+// Inside where a·x + b·y + c ≥ 0, in subpixels; the top-left rule is folded into c.
 struct Edge {
   std::int64_t a, b, c;
 
@@ -55,7 +55,7 @@ void cover(const ScreenTriangle& triangle, int width, int height, std::vector<Ro
   for (int y = std::max(0, first_pixel(y_low)); y <= bottom; ++y) {
     std::int64_t from = left, to = right;
     for (const Edge& edge : edges) {
-      // a·(256 x + 128) + rest ≥ 0
+      // a·(kSubpixels x + kSubpixels/2) + rest ≥ 0
       const std::int64_t rest = edge.a * (kSubpixels / 2) + edge.b * centre(y) + edge.c;
       const std::int64_t slope = edge.a * kSubpixels;
       if (slope > 0) {

@@ -33,8 +33,10 @@ struct DatapathConfiguration {
   IndexRounding index_rounding = IndexRounding::nearest;
   GateSource gate = GateSource::diffuse;
   Anchor anchor = Anchor::span;
-  // What setup makes of a triangle. No register or adder depends on it.
+  // What setup makes of a triangle, and how far its normals may turn before it is split (0: any).
+  // No register or adder depends on them.
   SeriesFit series_fit = SeriesFit::taylor;
+  int subdivide_degrees = 0;
 
   // Two's complement: sign, guard, integer, fraction. Overflow wraps.
   // Diffuse (and gate) series: s(1 + kGuardBits + kOutputBits).(diffuse_fraction_bits), in output

@@ -179,7 +179,8 @@ class GeometryBuilder {
 }  // namespace
 
 std::int32_t snap(double pixels) {
-  return static_cast<std::int32_t>(std::floor(pixels * kSubpixels + 0.5));
+  constexpr int kGrid = 1 << kGridBits;
+  return static_cast<std::int32_t>(std::floor(pixels * kGrid + 0.5)) * (kSubpixels / kGrid);
 }
 
 std::int64_t signed_area(const ScreenTriangle& triangle) {

@@ -11,20 +11,22 @@
 
 namespace phongpipe {
 
-constexpr int kSubpixelBits = 8;
-constexpr int kSubpixels = 1 << kSubpixelBits;  // to a pixel: the grid vertices sit on
+constexpr int kGridBits = 8;  // vertices sit on a grid of 1/256 pixel
+// Coordinates are kept so many bits finer that middles of edges are exact, level below level.
+constexpr int kSubdivisionLevels = 3;
+constexpr int kSubpixels = 1 << (kGridBits + kSubdivisionLevels);  // to a pixel
 inline double in_pixels(std::int32_t subpixels) {
   return subpixels / static_cast<double>(kSubpixels);
 }
 constexpr int kGuardBand = 8192;  // pixels beyond the image a vertex may lie
 
 struct ScreenVertex {
-  std::int32_t x = 0;  // 1/256 pixel from the left edge of the image; pixel centres at .5 pixel
-  std::int32_t y = 0;  // 1/256 pixel from the top edge, downwards
+  std::int32_t x = 0;  // subpixels from the left edge of the image; pixel centres at .5 pixel
+  std::int32_t y = 0;  // subpixels from the top edge, downwards
   double z = 0;        // depth, linear in screen space, grows away from the eye: 1 - near/w in
                        // perspective, the distance along the view in an orthographic camera
   Vec3 normal = Vec3::Zero();    // world axes (screen axes for a scene of screen-space triangles);
-                                 // unit, except where clipping made the vertex
+                                 // unit, except where clipping or subdivision made the vertex
   Vec3 eye = Vec3::Zero();       // surface → eye: true length for a local viewer, else unit
   Vec3 position = Vec3::Zero();  // the surface point, same axes
 };
@@ -49,10 +51,11 @@ struct Geometry {
   std::vector<std::string> notes;  // what a user should know, such as missing normals generated
 };
 
-// To the nearest 1/256 pixel, halves upwards, so that shifting by whole pixels changes nothing.
+// To the nearest 1/256 pixel, halves upwards, so that shifting by whole pixels changes nothing. In
+// subpixels.
 std::int32_t snap(double pixels);
 
-// Twice the area in (1/256 pixel)², negative where the vertices turn counter-clockwise on the
+// Twice the area in square subpixels, negative where the vertices turn counter-clockwise on the
 // screen.
 std::int64_t signed_area(const ScreenTriangle& triangle);
 

@@ -100,8 +100,7 @@ class CsvReader {
       result.normal /= length;
     }
     result.eye = Vec3(0, 0, -1);
-    result.position = Vec3(static_cast<double>(result.x) / kSubpixels,
-                           static_cast<double>(result.y) / kSubpixels, result.z);
+    result.position = Vec3(in_pixels(result.x), in_pixels(result.y), result.z);
     return result;
   }
 
@@ -168,8 +167,7 @@ void dump_triangles(std::ostream& out, const Scene& scene, const Geometry& geome
     row.clear();
     for (const ScreenVertex& vertex : triangle.vertices) {
       fmt::format_to(std::back_inserter(row), "{}{},{},{}", row.empty() ? "" : ",",
-                     static_cast<double>(vertex.x) / kSubpixels,
-                     static_cast<double>(vertex.y) / kSubpixels, vertex.z);
+                     in_pixels(vertex.x), in_pixels(vertex.y), vertex.z);
       append_vector(row, vertex.normal);
     }
     for (const ScreenVertex& vertex : triangle.vertices) {

@@ -55,6 +55,14 @@ void write_curves(const Options& options, Progress& progress) {
   }
 }
 
+void write_output(const std::string& file, const std::string& text) {
+  if (file == "-") {
+    fmt::print("{}", text);
+  } else if (!file.empty()) {
+    write_text(file, text);
+  }
+}
+
 int compare_methods(const Options& options) {
   if (options.scenes.empty() && options.curve.empty() && !options.microvax) {
     throw InputError("nothing to compare: give scenes, --curve NAME or --microvax");
@@ -69,14 +77,16 @@ int compare_methods(const Options& options) {
     const Comparison comparison =
         compare(find_scene(scene), hardware, [&](const std::string& what) { progress(what); });
     progress.clear();
-    fmt::print("{}", comparison_text(comparison));
+    if (options.json != "-" && options.csv != "-") {
+      fmt::print("{}", comparison_text(comparison));
+    }
     results.push_back(comparison_json(comparison));
     const std::string rows = comparison_csv(comparison);
     csv += csv.empty() ? rows : rows.substr(rows.find('\n') + 1);
     if (!options.out.empty()) write_comparison_page(comparison, options.out);
   }
-  if (!options.json.empty()) write_text(options.json, results.dump(2) + "\n");
-  if (!options.csv.empty()) write_text(options.csv, csv);
+  write_output(options.json, results.dump(2) + "\n");
+  write_output(options.csv, csv);
   return 0;
 }
 
@@ -90,8 +100,12 @@ void add_compare(CLI::App& application, Run& run) {
       ->type_name("SCENE");
   command->add_option("--out", options->out, "Folder for a page with plot, pictures and error maps")
       ->type_name("DIR");
-  command->add_option("--json", options->json, "Write the results as JSON")->type_name("FILE");
-  command->add_option("--csv", options->csv, "Write the table as CSV")->type_name("FILE");
+  command
+      ->add_option("--json", options->json,
+                   "Write the results as JSON; - is standard output, in place of the table")
+      ->type_name("FILE");
+  command->add_option("--csv", options->csv, "Write the table as CSV; - as with --json")
+      ->type_name("FILE");
   command
       ->add_option("--curve", options->curve,
                    "A curve over all methods: error over curvature, clocks over triangle size, or "

@@ -7,6 +7,7 @@
 #include "model/fixed/model_frame.h"
 #include "model/scene/input_error.h"
 #include "model/scene/spelling.h"
+#include "model/scene/subdivision.h"
 #include "testbench/commands/commands.h"
 #include "testbench/hardware.h"
 #include "testbench/pictures.h"
@@ -62,8 +63,9 @@ std::vector<Color> render_fixed(const Options& options, const Scene& scene,
                                 const Geometry& geometry) {
   Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
   suit_scene(hardware, scene, geometry);
-  const FrameSetup frame(scene, geometry, hardware.datapath, hardware.pipeline.depth_bits);
-  const ModelFrame model = run_model(frame, geometry);
+  const Geometry pieces = subdivide(geometry, hardware.datapath.subdivide_degrees).geometry;
+  const FrameSetup frame(scene, pieces, hardware.datapath, hardware.pipeline.depth_bits);
+  const ModelFrame model = run_model(frame, pieces);
   if (model.coefficient_overflows > 0) {
     fmt::print(stderr, "warning: {} triangles have values that do not fit their registers\n",
                model.coefficient_overflows);
@@ -71,9 +73,11 @@ std::vector<Color> render_fixed(const Options& options, const Scene& scene,
   return in_lsb(model.colors(), hardware.datapath.channels);
 }
 
-std::vector<Color> render_real(const Options& options, const Scene& scene,
-                               const Geometry& geometry) {
+std::vector<Color> render_real(const Options& options, const Scene& scene, const Geometry& whole) {
   const ShadingMethod& method = method_of(options.method);
+  const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
+  const Geometry geometry =
+      subdivide(whole, method.takes_pieces ? hardware.datapath.subdivide_degrees : 0).geometry;
   const Visibility visibility = find_visible(scene, geometry);
   if (method.name == "phong") return render_phong(scene, geometry, visibility);
   if (const auto reason = refusal(method, scene, geometry.materials)) {

@@ -81,6 +81,9 @@ struct ShadingMethod {
   std::vector<Claim> claims;
   std::unique_ptr<TriangleShader> (*create)(const ShaderContext& context);
   MethodCosts (*costs)(Parts parts, PowerKind power);
+  // Takes the pieces of triangles that turn too sharply, see subdivide; the others are the paper's
+  // and the literature's, and take whole triangles.
+  bool takes_pieces = false;
 };
 
 const std::vector<ShadingMethod>& shading_methods();

@@ -127,6 +127,7 @@ std::vector<ShadingMethod> fitted_methods(const char* name, const char* local_na
 std::vector<ShadingMethod> quadratic_methods() {
   std::vector<ShadingMethod> all;
   const auto add = [&all](std::vector<ShadingMethod> methods) {
+    for (ShadingMethod& method : methods) method.takes_pieces = true;
     std::move(methods.begin(), methods.end(), std::back_inserter(all));
   };
   add(fitted_methods<SeriesFit::six_point>("six-point", "six-point-local",

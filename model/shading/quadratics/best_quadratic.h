@@ -1,44 +1,38 @@
-// The limit for six numbers a triangle: weighted minimax. Too slow for a setup engine; for
-// comparing fits with.
+// The limit for six numbers a triangle. Too slow for a setup engine; for comparing fits with.
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include "model/shading/quadratics/barycentric.h"
 
 namespace phongpipe {
 
-// A value at a point of the triangle, with the weight of an error there.
-struct WeightedSample {
+struct CosineSample {
   double u, v;  // barycentric coordinates of corners 1 and 2
-  double value;
-  double weight;
+  double cosine;
 };
 
+// Errors are those of the displayed power, max(0, cosine)^power up to 1, full scale 1.
 struct BestQuadratic {
   SixValues<double> values;
-  double error;        // largest weighted one over the samples
+  double error;        // largest over the samples
   double lower_bound;  // no quadratic has a smaller one
 };
 
-// By Lawson's iteration: least squares again and again, samples gaining weight with their error.
-BestQuadratic best_quadratic(const std::vector<WeightedSample>& samples, int iterations = 100);
+// An error of the power allows the cosine a band, so that each bisection of the error asks whether
+// a quadratic stays within bands: minimax, weighted by what the power minds. Until the error is
+// within 2 % of the limit or at most `good_enough`.
+BestQuadratic best_quadratic(const std::vector<CosineSample>& samples, double power,
+                             double good_enough = 0);
 
-// At even distances, `steps` to an edge: the cosine by `cosine(u, v)`, weighed by the sensitivity
-// of its power, 1 for power 1.
+// At even distances, `steps` to an edge: the cosine by `cosine(u, v)`.
 template <typename Cosine>
-std::vector<WeightedSample> dense_samples(int steps, double power, const Cosine& cosine) {
-  std::vector<WeightedSample> samples;
+std::vector<CosineSample> dense_samples(int steps, const Cosine& cosine) {
+  std::vector<CosineSample> samples;
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; i + j <= steps; ++j) {
       const double u = static_cast<double>(i) / steps, v = static_cast<double>(j) / steps;
-      const double s = cosine(u, v);
-      // An error that is not seen may not run away either: a highlight must not come back.
-      constexpr double kLeastCosine = 1e-3, kLeastWeight = 1e-6;
-      const double weight =
-          power == 1 ? 1 : std::pow(s > kLeastCosine ? s : kLeastCosine, power - 1) + kLeastWeight;
-      samples.push_back({u, v, s, weight});
+      samples.push_back({u, v, cosine(u, v)});
     }
   }
   return samples;

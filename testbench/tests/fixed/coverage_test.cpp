@@ -15,7 +15,7 @@ namespace phongpipe {
 namespace {
 
 constexpr unsigned kSeed = 77;
-struct Point {  // 1/256 pixel
+struct Point {  // subpixels
   int x, y;
 };
 ScreenTriangle triangle_of(Point p, Point q, Point r) {

@@ -31,12 +31,13 @@ bool inside_guard_band(const ScreenVertex& v, const Image& image) {
 }
 
 TEST(Snap, RoundsToNearestAndHalvesUpwards) {
+  constexpr int kGrid = kSubpixels / 256;
   EXPECT_EQ(snap(0), 0);
-  EXPECT_EQ(snap(1), 256);
-  EXPECT_EQ(snap(0.5 / 256), 1);
+  EXPECT_EQ(snap(1), 256 * kGrid);
+  EXPECT_EQ(snap(0.5 / 256), kGrid);
   EXPECT_EQ(snap(-0.5 / 256), 0);
-  EXPECT_EQ(snap(-0.51 / 256), -1);
-  EXPECT_EQ(snap(-1.5), -384);
+  EXPECT_EQ(snap(-0.51 / 256), -kGrid);
+  EXPECT_EQ(snap(-1.5), -384 * kGrid);
 }
 
 RC_GTEST_PROP(Snap, CommutesWithWholePixels, ()) {
@@ -65,10 +66,10 @@ TEST(Geometry, OrthographicPlaneLandsOnItsPixels) {
       EXPECT_EQ(vertex.eye, Vec3(0, 0, 1));
     }
   }
-  EXPECT_EQ(left, 48 * 256);
-  EXPECT_EQ(right, 80 * 256);
-  EXPECT_EQ(top, 8 * 256) << "up in the world is up on the screen";
-  EXPECT_EQ(bottom, 40 * 256);
+  EXPECT_EQ(left, 48 * kSubpixels);
+  EXPECT_EQ(right, 80 * kSubpixels);
+  EXPECT_EQ(top, 8 * kSubpixels) << "up in the world is up on the screen";
+  EXPECT_EQ(bottom, 40 * kSubpixels);
 }
 
 TEST(Geometry, PerspectiveDividesByDistance) {

@@ -30,14 +30,14 @@ TEST_F(TriangleCsv, ReadsSnapsAndMakesNormalsUnit) {
   const auto triangles = read(kHeader + "\r\n" + kRow + "\n" + kRow);
   ASSERT_EQ(triangles.size(), 2U);
   const ScreenVertex& first = triangles[0].vertices[0];
-  EXPECT_EQ(first.x, 384);
-  EXPECT_EQ(first.y, 512);
+  EXPECT_EQ(in_pixels(first.x), 1.5);
+  EXPECT_EQ(in_pixels(first.y), 2);
   EXPECT_EQ(first.z, 3);
   EXPECT_EQ(first.normal, Vec3(0, 0, -1));
   EXPECT_EQ(first.eye, Vec3(0, 0, -1));
   EXPECT_EQ(first.position, Vec3(1.5, 2, 3));
   const ScreenVertex& last = triangles[0].vertices[2];
-  EXPECT_EQ(last.y, 5120) << "20.001 is nearest to 20";
+  EXPECT_EQ(in_pixels(last.y), 20) << "20.001 is nearest to 20";
   EXPECT_EQ(last.position, Vec3(1, 20, 4)) << "where the snapped vertex is";
 }
 
@@ -79,9 +79,9 @@ TEST_F(CsvScene, KeepsBothOrientationsInTheirOrder) {
   const Geometry geometry = make_geometry(
       scene_of("1,1,3,0,0,-1,9,1,3,0,0,-1,1,9,3,0,0,-1\n1,1,3,0,0,-1,1,9,3,0,0,-1,9,1,3,0,0,-1\n"));
   ASSERT_EQ(geometry.triangles.size(), 2U);
-  EXPECT_EQ(signed_area(geometry.triangles[0]), 2048 * 2048);
-  EXPECT_EQ(signed_area(geometry.triangles[1]), -2048 * 2048);
-  EXPECT_EQ(geometry.triangles[1].vertices[1].y, 9 * 256);
+  EXPECT_EQ(signed_area(geometry.triangles[0]), 64 * kSubpixels * kSubpixels);
+  EXPECT_EQ(signed_area(geometry.triangles[1]), -64 * kSubpixels * kSubpixels);
+  EXPECT_EQ(geometry.triangles[1].vertices[1].y, 9 * kSubpixels);
   EXPECT_EQ(geometry.materials.at(0).name, "default");
 }
 

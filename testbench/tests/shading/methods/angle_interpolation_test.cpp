@@ -25,7 +25,7 @@ OneTriangle turning(double left, double middle, double right) {
 double interpolated(const OneTriangle& t, double a0, double a1, double a2, int x, int y) {
   const auto& v = t.triangle.vertices;
   const auto at = [&v](std::size_t i) {
-    return std::array<double, 2>{v[i].x / 256.0, v[i].y / 256.0};
+    return std::array<double, 2>{in_pixels(v[i].x), in_pixels(v[i].y)};
   };
   const Interpolator<double> interpolate({at(0)[0], at(1)[0], at(2)[0]},
                                          {at(0)[1], at(1)[1], at(2)[1]});

@@ -62,10 +62,10 @@ inline double displayed(double cosine, double power) {
 // Largest error in LSB of a quadratic in u − ⅓ and v − ⅓.
 inline double largest_error(const CosineCase& c, const Quadratic<double>& q, int steps = 40) {
   double largest = 0;
-  for (const WeightedSample& s :
-       dense_samples(steps, 1, [&c](double u, double v) { return c.cosine(u, v); })) {
+  for (const CosineSample& s :
+       dense_samples(steps, [&c](double u, double v) { return c.cosine(u, v); })) {
     const double fitted = q(s.u - 1.0 / 3, s.v - 1.0 / 3);
-    const double error = displayed(fitted, c.power) - displayed(s.value, c.power);
+    const double error = displayed(fitted, c.power) - displayed(s.cosine, c.power);
     largest = std::max(largest, std::fabs(error));
   }
   return largest;
@@ -82,7 +82,7 @@ inline Quadratic<double> best(const CosineCase& c, int steps = 40) {
   const auto cosine = [&c](double u, double v) { return c.cosine(u, v); };
   const Interpolator<double> triangle = unit_triangle<double>();
   const BarycentricBasis<double> basis(triangle.coordinate_1(), triangle.coordinate_2());
-  return basis(best_quadratic(dense_samples(steps, c.power, cosine)).values);
+  return basis(best_quadratic(dense_samples(steps, cosine), c.power).values);
 }
 
 struct Spread {

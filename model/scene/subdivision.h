@@ -1,0 +1,23 @@
+// Triangles that turn too sharply for one quadratic, cut up before they are set up.
+#pragma once
+
+#include "model/scene/geometry.h"
+
+namespace phongpipe {
+
+struct Subdivision {
+  Geometry geometry;                 // the pieces in place of the triangles that were split
+  std::vector<std::uint32_t> whole;  // of each piece, the triangle it is a part of
+  std::size_t split = 0;             // triangles that were
+  std::size_t pieces = 0;            // that these became
+};
+
+// Splits a triangle by the middles of its edges into four where two normals of its corners are more
+// than `largest_turn_degrees` apart, the four again, up to kSubdivisionLevels deep; 0: none.
+//
+// Middles are plain averages, not made unit, and exact on the screen. So what is interpolated over
+// the pieces, and with it exact Phong shading, is what it was over the whole; and the pieces cover
+// its pixels, each once, whether or not a neighbour is split too.
+Subdivision subdivide(const Geometry& geometry, int largest_turn_degrees);
+
+}  // namespace phongpipe
