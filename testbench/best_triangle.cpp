@@ -10,14 +10,20 @@
 namespace phongpipe {
 namespace {
 
-// Pixels at most so many in a row, rows at most so many, evenly and to the ends: the extremes of an
-// error lie at the rim or are broad.
-constexpr int kSamplesAcross = 32;
+// Every so many pixels and rows, that there are about so many samples at most; always to the ends,
+// as the extremes of an error lie at the rim or are broad.
+constexpr std::size_t kSamples = 1000;
+
+int stride_of(const std::vector<RowSpan>& rows) {
+  std::size_t pixels = 0;
+  for (const RowSpan& row : rows) pixels += static_cast<std::size_t>(row.length);
+  return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(pixels) / kSamples)));
+}
 
 template <typename Visit>
-void for_samples(int count, Visit visit) {
-  const int taken = std::min(count, kSamplesAcross);
-  for (int i = 0; i < taken; ++i) visit(taken == 1 ? 0 : i * (count - 1) / (taken - 1));
+void for_samples(int count, int stride, Visit visit) {
+  for (int i = 0; i < count - 1; i += stride) visit(i);
+  visit(count - 1);
 }
 
 double highlight_cosine(const Scene& scene, const Vec3& normal, const Illumination& light) {
@@ -43,15 +49,16 @@ BestTriangle::BestTriangle(const Scene& scene, const Material& material,
   const Linear<Vec3> normal = interpolate(v[0].normal, v[1].normal, v[2].normal);
   eye_ = interpolate(v[0].eye, v[1].eye, v[2].eye);
 
+  const int stride = stride_of(rows);
   const bool shiny = (material.specular > 0).any();
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     to_light_.push_back(interpolate(light_vector(scene.lights[i], v[0]),
                                     light_vector(scene.lights[i], v[1]),
                                     light_vector(scene.lights[i], v[2])));
     std::vector<CosineSample> light, highlight;
-    for_samples(static_cast<int>(rows.size()), [&](int row) {
+    for_samples(static_cast<int>(rows.size()), stride, [&](int row) {
       const RowSpan& span = rows[static_cast<std::size_t>(row)];
-      for_samples(span.length, [&](int pixel) {
+      for_samples(span.length, stride, [&](int pixel) {
         const double x = span.x + pixel - origin_x_, y = span.y - origin_y_;
         const Vec3 n = (normal.a * x + normal.b * y + normal.c).normalized();
         const Illumination at = illuminate_at(i, x, y);

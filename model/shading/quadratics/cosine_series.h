@@ -17,14 +17,10 @@ using Corners = std::array<Vector3<T>, 3>;
 
 namespace detail {
 
-// What a weight is divided by at each kind of point, beside the sensitivity. Chosen, as the
-// exponent is, for the smallest largest errors relative to the best quadratics'.
-struct SpreadByKind {
-  double corner, middle, inner, centre;
-};
-constexpr SpreadByKind kEvenSpread = {1, 1, 1, 1};
-constexpr SpreadByKind kFocusSpread = {1, 0.62, 0.45, 0.38};
-constexpr double kFocusExponent = 1.9;
+// What a weight is divided by at each kind of point, corners 1, and the power of the sensitivity
+// that it is divided by. Chosen for the smallest largest errors relative to the best quadratics'.
+constexpr double kMiddleSpread = 0.62, kInnerSpread = 0.45, kCentreSpread = 0.38;
+constexpr double kSensitivityExponent = 1.9;
 
 template <typename T>
 Quadratic<T> expand(const NormalExpansion<T>& expansion, const Interpolator<T>&,
@@ -44,14 +40,13 @@ SixValues<T> through(const Values<T, kSixPoints>& f) {
 
 // Residuals count by the power's sensitivity to them.
 template <typename T>
-SixValues<T> fit_sensitive(const Values<T, kTenPoints>& f, const SpreadByKind& s,
-                           const T& sharpness, double exponent) {
-  const Fading<T> fading(sharpness * T(exponent / 8));
+SixValues<T> fit_sensitive(const Values<T, kTenPoints>& f, const T& sharpness) {
+  const Fading<T> fading(sharpness * T(kSensitivityExponent / 8));
   Values<T, kTenPoints> spread;
   for (std::size_t i = 0; i < kTenPoints; ++i) {
-    const double kind = i < 3 ? s.corner : i < 6 ? s.middle : i < 9 ? s.inner : s.centre;
     spread[i] = eighth_power(fading(f[i]));
-    if (kind != 1) spread[i] = spread[i] * T(kind);
+    const double kind = i < 6 ? kMiddleSpread : i < 9 ? kInnerSpread : kCentreSpread;
+    if (i >= 3) spread[i] = spread[i] * T(kind);
   }
   return fit_ten_points(f, spread);
 }
@@ -86,8 +81,7 @@ Quadratic<T> focused_series(const Interpolator<T>& interpolate, const Corners<T>
   const NormalSamples<T, kTenPoints> near(focus.corners(normal, centre));
   const BarycentricBasis<T> basis(focus.coordinate(interpolate.coordinate_1(), 1),
                                   focus.coordinate(interpolate.coordinate_2(), 2));
-  return basis(fit_sensitive(near.cosines(around_focus(focus, halfway)), kFocusSpread, sharpness,
-                             kFocusExponent));
+  return basis(fit_sensitive(near.cosines(around_focus(focus, halfway)), sharpness));
 }
 
 }  // namespace detail
@@ -111,8 +105,7 @@ CosineSeries<T> fit_series(SeriesFit fit, const Interpolator<T>& interpolate,
   if (fit == SeriesFit::weighted) {
     const NormalSamples<T, kTenPoints> samples(normal);
     return {basis(fit_nine_points(samples.template cosines<kNinePoints>(to_light))),
-            basis(detail::fit_sensitive(samples.cosines(halfway), detail::kEvenSpread, sharpness,
-                                        2.0))};
+            basis(detail::fit_sensitive(samples.cosines(halfway), sharpness))};
   }
   const NormalSamples<T, kNinePoints> samples(normal);
   return {basis(fit_nine_points(samples.cosines(to_light))),
