@@ -30,7 +30,7 @@ struct Drawn {
   Visibility visibility;
 
   Drawn(const Scene& scene, const Geometry& geometry, int largest_turn_degrees)
-      : triangles(subdivide(geometry, largest_turn_degrees)),
+      : triangles(subdivide(scene, geometry, largest_turn_degrees)),
         visibility(find_visible(scene, triangles.geometry)) {}
 };
 

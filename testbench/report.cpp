@@ -87,8 +87,10 @@ void report_hardware(Page& page, const Verification& v) {
   page.line("setup", "{} cycles a triangle for {} additions, {} multiplications, {} 1/√",
             v.systemc.setup_cycles, counts.add, counts.multiply, counts.rsqrt);
   if (v.triangles_split > 0) {
-    page.line("subdivision", "{} triangles that turn by more than {}° were split into {}",
-              v.triangles_split, d.subdivide_degrees, v.pieces);
+    page.line(
+        "subdivision",
+        "{} triangles that turn by more than {}°, or than their highlight reaches, split into {}",
+        v.triangles_split, d.subdivide_degrees, v.pieces);
   }
 }
 

@@ -179,7 +179,7 @@ Verification verify(const std::filesystem::path& file, const Hardware& hardware,
   progress("reading the scene");
   const Scene scene = load_scene(file);
   const Subdivision subdivision =
-      subdivide(make_geometry(scene), hardware.datapath.subdivide_degrees);
+      subdivide(scene, make_geometry(scene), hardware.datapath.subdivide_degrees);
   const Geometry& geometry = subdivision.geometry;
   v.hardware = hardware;
   suit_scene(v.hardware, scene, geometry);

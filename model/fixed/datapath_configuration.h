@@ -33,8 +33,8 @@ struct DatapathConfiguration {
   IndexRounding index_rounding = IndexRounding::nearest;
   GateSource gate = GateSource::diffuse;
   Anchor anchor = Anchor::span;
-  // What setup makes of a triangle, and how far its normals may turn before it is split (0: any).
-  // No register or adder depends on them.
+  // What setup makes of a triangle, and how far its normals may turn before it is split, see
+  // subdivide (0: never). No register or adder depends on them.
   SeriesFit series_fit = SeriesFit::taylor;
   int subdivide_degrees = 0;
 

@@ -1,21 +1,28 @@
 #include "model/scene/subdivision.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace phongpipe {
 namespace {
 
-constexpr double kRadiansPerDegree = 0.017453292519943295;
+constexpr double kPi = 3.14159265358979323846;
 
 double angle(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-bool turns_by_more(const ScreenTriangle& triangle, double radians) {
+double turn(const ScreenTriangle& triangle) {
   const auto& [a, b, c] = triangle.vertices;
-  return angle(a.normal, b.normal) > radians || angle(b.normal, c.normal) > radians ||
-         angle(c.normal, a.normal) > radians;
+  return std::max(
+      {angle(a.normal, b.normal), angle(b.normal, c.normal), angle(c.normal, a.normal)});
+}
+
+// How far from its middle a highlight falls below an LSB.
+double radius_of_highlight(const Material& material) {
+  constexpr double kLsb = 1.0 / 255;
+  return std::acos(std::pow(kLsb, 1 / material.shininess));
 }
 
 ScreenVertex middle(const ScreenVertex& a, const ScreenVertex& b) {
@@ -29,29 +36,67 @@ ScreenVertex middle(const ScreenVertex& a, const ScreenVertex& b) {
   return result;
 }
 
-void append(const ScreenTriangle& triangle, double radians, int levels,
-            std::vector<ScreenTriangle>& pieces) {
-  if (levels == 0 || !turns_by_more(triangle, radians)) {
-    pieces.push_back(triangle);
-    return;
-  }
+// How close a normal of a corner or of the middle of an edge comes to the middle of a highlight.
+double nearest_highlight(const Scene& scene, const ScreenTriangle& triangle) {
   const auto& [a, b, c] = triangle.vertices;
-  const ScreenVertex ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-  for (const auto& corners : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
-    append({corners, triangle.material}, radians, levels - 1, pieces);
+  double nearest = kPi;
+  for (const Light& light : scene.lights) {
+    for (const ScreenVertex& v : {a, b, c, middle(a, b), middle(b, c), middle(c, a)}) {
+      const Vec3 halfway = v.eye.normalized() + light_vector(light, v).normalized();
+      nearest = std::min(nearest, angle(v.normal, halfway));
+    }
   }
+  return nearest;
 }
+
+class Splitter {
+ public:
+  Splitter(const Scene& scene, const Geometry& geometry, int largest_turn_degrees)
+      : scene_(scene), largest_turn_(largest_turn_degrees * kPi / 180) {
+    for (const Material& material : geometry.materials) {
+      const bool shiny = (material.specular > 0).any();
+      highlight_radius_.push_back(shiny ? radius_of_highlight(material) : kPi);
+    }
+  }
+
+  void append(const ScreenTriangle& triangle, int levels,
+              std::vector<ScreenTriangle>& pieces) const {
+    if (levels == 0 || !turns_too_sharply(triangle)) {
+      pieces.push_back(triangle);
+      return;
+    }
+    const auto& [a, b, c] = triangle.vertices;
+    const ScreenVertex ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const auto& corners : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
+      append({corners, triangle.material}, levels - 1, pieces);
+    }
+  }
+
+ private:
+  bool turns_too_sharply(const ScreenTriangle& triangle) const {
+    const double turned = turn(triangle), radius = highlight_radius_[triangle.material];
+    if (turned > largest_turn_) return true;
+    // No point of a triangle is farther from its corners and middles than a share of its sides.
+    const double between = turned / std::sqrt(12.0);
+    return turned > radius && nearest_highlight(scene_, triangle) < radius + between;
+  }
+
+  const Scene& scene_;
+  double largest_turn_;
+  std::vector<double> highlight_radius_;  // by material
+};
 
 }  // namespace
 
-Subdivision subdivide(const Geometry& geometry, int largest_turn_degrees) {
+Subdivision subdivide(const Scene& scene, const Geometry& geometry, int largest_turn_degrees) {
   Subdivision result;
   result.geometry = geometry;
   std::vector<ScreenTriangle>& pieces = result.geometry.triangles;
   pieces.clear();
+  const Splitter splitter(scene, geometry, largest_turn_degrees);
   const int levels = largest_turn_degrees > 0 ? kSubdivisionLevels : 0;
   for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-    append(geometry.triangles[i], largest_turn_degrees * kRadiansPerDegree, levels, pieces);
+    splitter.append(geometry.triangles[i], levels, pieces);
     const std::size_t made = pieces.size() - result.whole.size();
     if (made > 1) {
       ++result.split;

@@ -63,7 +63,7 @@ std::vector<Color> render_fixed(const Options& options, const Scene& scene,
                                 const Geometry& geometry) {
   Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
   suit_scene(hardware, scene, geometry);
-  const Geometry pieces = subdivide(geometry, hardware.datapath.subdivide_degrees).geometry;
+  const Geometry pieces = subdivide(scene, geometry, hardware.datapath.subdivide_degrees).geometry;
   const FrameSetup frame(scene, pieces, hardware.datapath, hardware.pipeline.depth_bits);
   const ModelFrame model = run_model(frame, pieces);
   if (model.coefficient_overflows > 0) {
@@ -77,7 +77,8 @@ std::vector<Color> render_real(const Options& options, const Scene& scene, const
   const ShadingMethod& method = method_of(options.method);
   const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
   const Geometry geometry =
-      subdivide(whole, method.takes_pieces ? hardware.datapath.subdivide_degrees : 0).geometry;
+      subdivide(scene, whole, method.takes_pieces ? hardware.datapath.subdivide_degrees : 0)
+          .geometry;
   const Visibility visibility = find_visible(scene, geometry);
   if (method.name == "phong") return render_phong(scene, geometry, visibility);
   if (const auto reason = refusal(method, scene, geometry.materials)) {

@@ -47,7 +47,7 @@ Geometry random_mesh(Random& random) {
     }
   }
   Geometry geometry;
-  geometry.materials = {grey_material(0.6, 0.3, 20)};
+  geometry.materials = {grey_material(0.6, 0, 1)};
   for (std::size_t row = 0; row < kCells; ++row) {
     for (std::size_t column = 0; column < kCells; ++column) {
       const ScreenVertex &a = corner[row][column], &b = corner[row][column + 1],
@@ -80,7 +80,7 @@ TEST(Subdivision, SplitsInFourWhatTurnsByMoreThanTheLimit) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
   const Geometry geometry = random_mesh(random);
-  const Subdivision result = subdivide(geometry, 40);
+  const Subdivision result = subdivide(lit_scene(kSize, kSize), geometry, 40);
   ASSERT_EQ(result.geometry.triangles.size(), result.whole.size());
   std::vector<std::size_t> pieces(geometry.triangles.size());
   for (const std::uint32_t whole : result.whole) ++pieces[whole];
@@ -98,11 +98,41 @@ TEST(Subdivision, SplitsInFourWhatTurnsByMoreThanTheLimit) {
   for (const ScreenTriangle& piece : result.geometry.triangles) EXPECT_LE(turn(piece), 40);
 }
 
+// A highlight of this power fades below an LSB 20 degrees from its middle.
+TEST(Subdivision, WhereAHighlightFallsTheLimitIsHowFarItReaches) {
+  SCOPED_TRACE(kSeed);
+  Random random(kSeed);
+  constexpr double kPower = 89;
+  const double reach = std::acos(std::pow(1.0 / 255, 1 / kPower)) / kDegrees;
+  EXPECT_NEAR(reach, 20, 0.1);
+  Geometry geometry = random_mesh(random);
+  geometry.materials = {grey_material(0.6, 0.3, kPower)};
+  const Scene scene = lit_scene(kSize, kSize);
+  const Subdivision result = subdivide(scene, geometry, 60);
+  const auto from_highlight = [&scene](const ScreenVertex& v) {
+    const Vec3 halfway = (v.eye.normalized() - scene.lights[0].direction).normalized();
+    return std::acos(v.normal.normalized().dot(halfway)) / kDegrees;
+  };
+  int lit = 0, dark = 0;
+  for (const ScreenTriangle& piece : result.geometry.triangles) {
+    double nearest = 180;
+    for (const ScreenVertex& v : piece.vertices) nearest = std::min(nearest, from_highlight(v));
+    if (nearest < reach) {
+      EXPECT_LE(turn(piece), reach);
+      ++lit;
+    } else if (turn(piece) > reach) {
+      ++dark;
+    }
+  }
+  EXPECT_GT(lit, 0);
+  EXPECT_GT(dark, 0);
+}
+
 TEST(Subdivision, ZeroIsNever) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
   const Geometry geometry = random_mesh(random);
-  const Subdivision result = subdivide(geometry, 0);
+  const Subdivision result = subdivide(lit_scene(kSize, kSize), geometry, 0);
   EXPECT_EQ(result.geometry.triangles.size(), geometry.triangles.size());
   EXPECT_EQ(result.split, 0U);
   EXPECT_EQ(result.pieces, 0U);
@@ -116,7 +146,7 @@ TEST(Subdivision, EndsAtTheFinestLevel) {
   for (std::size_t i = 0; i < 3; ++i) {
     geometry.triangles[0].vertices[i].normal = Vec3::Unit(static_cast<Eigen::Index>(i));
   }
-  EXPECT_EQ(subdivide(geometry, 1).pieces, 64U);
+  EXPECT_EQ(subdivide(lit_scene(kSize, kSize), geometry, 1).pieces, 64U);
 }
 
 TEST(Subdivision, PiecesCoverThePixelsOfTheWholeEachOnce) {
@@ -124,7 +154,7 @@ TEST(Subdivision, PiecesCoverThePixelsOfTheWholeEachOnce) {
   Random random(kSeed);
   for (int i = 0; i < 40; ++i) {
     const Geometry geometry = random_mesh(random);
-    const Subdivision result = subdivide(geometry, i % 2 == 0 ? 40 : 15);
+    const Subdivision result = subdivide(lit_scene(kSize, kSize), geometry, i % 2 == 0 ? 40 : 15);
     for (std::uint32_t whole = 0; whole < geometry.triangles.size(); ++whole) {
       ASSERT_EQ(coverage(result.geometry,
                          [&](std::uint32_t piece) { return result.whole[piece] == whole; }),
@@ -138,12 +168,13 @@ TEST(Subdivision, PiecesCoverThePixelsOfTheWholeEachOnce) {
 TEST(Subdivision, ExactPhongShadingIsThatOfTheWhole) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
-  const Geometry geometry = random_mesh(random);
-  const Subdivision result = subdivide(geometry, 20);
+  Geometry geometry = random_mesh(random);
+  geometry.materials = {grey_material(0.6, 0.3, 20)};
   Scene scene = lit_scene(kSize, kSize);
   scene.shading.viewer = Viewer::local;
   scene.lights.front().type = LightType::point;
   scene.lights.front().position = Vec3(1, 2, 5);
+  const Subdivision result = subdivide(scene, geometry, 20);
   std::vector<RowSpan> rows;
   std::array<Color, kSize> expected, actual;
   for (std::uint32_t i = 0; i < result.whole.size(); ++i) {
