@@ -99,6 +99,34 @@ TEST(Comparison, RefusesByNameAndSaysWhy) {
   EXPECT_NE(text.find("refused: "), std::string::npos);
 }
 
+// A limit has neither cost nor time, and holds for whatever scene.
+TEST(Comparison, TheLimitOfQuadraticsIsLastAndNeverRefused) {
+  for (const char* scene : {"sphere", "torus"}) {
+    const Comparison c = compare_scene(scene);
+    const MethodResult& best = c.methods.back();
+    EXPECT_EQ(best.name, "best");
+    EXPECT_TRUE(best.is_limit);
+    EXPECT_EQ(best.refused, "");
+    EXPECT_LE(best.error.largest, 1.02 * result_of(c, "focused-local").error.largest);
+    EXPECT_NE(comparison_text(c).find("best                            –"), std::string::npos);
+    const auto json = comparison_json(c)["methods"].back();
+    EXPECT_TRUE(json.contains("max_lsb"));
+    EXPECT_FALSE(json.contains("clocks_per_pixel"));
+    EXPECT_NE(comparison_csv(c).find(",best,,,,,,,,,,"), std::string::npos);
+  }
+}
+
+TEST(Comparison, LargestErrorsAreGivenAsMultiplesOfTaylors) {
+  const auto methods = comparison_json(compare_scene("torus"))["methods"];
+  for (const auto& method : methods) {
+    if (method["method"] == "taylor-local") {
+      EXPECT_EQ(method["max_over_taylor"], 1);
+    } else if (method["method"] == "weighted-local") {
+      EXPECT_LT(method["max_over_taylor"], 0.5);
+    }
+  }
+}
+
 TEST(Comparison, MethodsOfTheOtherHighlightAreComparedWithTheirOwnPhong) {
   const Comparison c = compare_scene("sphere");
   const MethodResult& result = result_of(c, "duff-eq17");

@@ -41,6 +41,20 @@ TEST(Hardware, EverySettingChangesTheHash) {
   EXPECT_EQ(configuration_hash(hardware), before);
 }
 
+TEST(Hardware, OnlyTheDefaultSplitsTriangles) {
+  EXPECT_GT(load_hardware("default", {}).datapath.subdivide_degrees, 0);
+  EXPECT_EQ(load_hardware("paper-1k", {}).datapath.subdivide_degrees, 0);
+  EXPECT_EQ(load_hardware("paper-8k", {}).datapath.subdivide_degrees, 0);
+  try {
+    load_hardware("default", {"subdivide_degrees=181"});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "--set subdivide_degrees=181: setup_engine.subdivide_degrees = 181 is out of "
+                 "range: 0 to 180 (0: never)");
+  }
+}
+
 TEST(Technology, ClockOfTheNextWiderPoint) {
   const Technology card = load_technology("ice40-hx8k");
   DatapathConfiguration c;

@@ -92,6 +92,8 @@ TEST_F(Program, VerifyWritesEveryKeyAndThreePictures) {
                           "/configuration_hash",
                           "/triangles",
                           "/pixels",
+                          "/subdivision/triangles",
+                          "/subdivision/pieces",
                           "/mismatches/model_rtl",
                           "/mismatches/model_systemc",
                           "/cycles/frame",
@@ -214,6 +216,28 @@ TEST_F(Program, CompareWritesAPageTablesAndCurves) {
   EXPECT_EQ(read_whole_file(file("size.svg")).substr(0, 4), "<svg");
   expect_refused({"compare"}, "nothing to compare");
   expect_refused({"compare", "--curve", "colour"}, "curvature");
+}
+
+TEST_F(Program, ComparedJsonAloneGoesToStandardOutput) {
+  const ProcessOutput output =
+      run_process({"sh", "-c", PHONGPIPE_PROGRAM " compare sphere --json - 2>/dev/null"});
+  EXPECT_TRUE(nlohmann::json::accept(output.text)) << output.text;
+}
+
+TEST_F(Program, SplitTrianglesAreReportedAndShadedAlikeInAllAccounts) {
+  const ProcessOutput output = run({"verify", "screen-triangles", "--json", file("r.json")});
+  EXPECT_EQ(output.status, 0) << output.text;
+  EXPECT_EQ(json("r.json")["subdivision"]["triangles"], 6);
+  EXPECT_EQ(json("r.json")["subdivision"]["pieces"], 24);
+  EXPECT_EQ(json("r.json")["mismatches"]["model_rtl"], 0);
+  ASSERT_EQ(run({"verify", "screen-triangles", "--set", "subdivide_degrees=0", "--json",
+                 file("whole.json")})
+                .status,
+            0);
+  EXPECT_EQ(json("whole.json")["subdivision"]["triangles"], 0);
+  EXPECT_EQ(json("whole.json")["triangles"], json("r.json")["triangles"]);
+  EXPECT_EQ(json("whole.json")["pixels"], json("r.json")["pixels"]);
+  EXPECT_GT(json("whole.json")["accuracy"]["max_lsb"], json("r.json")["accuracy"]["max_lsb"]);
 }
 
 TEST_F(Program, RenderTakesAnyMethodAndRefusesByName) {
