@@ -19,10 +19,12 @@ double turn(const ScreenTriangle& triangle) {
       {angle(a.normal, b.normal), angle(b.normal, c.normal), angle(c.normal, a.normal)});
 }
 
-// How far from its middle a highlight falls below an LSB.
-double radius_of_highlight(const Material& material) {
+// By how much normals turn from the middle of a highlight to where it falls below an LSB. R turns
+// twice as fast as N.
+double radius_of_highlight(const Scene& scene, const Material& material) {
   constexpr double kLsb = 1.0 / 255;
-  return std::acos(std::pow(kLsb, 1 / material.shininess));
+  const double radius = std::acos(std::pow(kLsb, 1 / material.shininess));
+  return scene.shading.highlight == Highlight::reflection ? radius / 2 : radius;
 }
 
 ScreenVertex middle(const ScreenVertex& a, const ScreenVertex& b) {
@@ -55,7 +57,7 @@ class Splitter {
       : scene_(scene), largest_turn_(largest_turn_degrees * kPi / 180) {
     for (const Material& material : geometry.materials) {
       const bool shiny = (material.specular > 0).any();
-      highlight_radius_.push_back(shiny ? radius_of_highlight(material) : kPi);
+      highlight_radius_.push_back(shiny ? radius_of_highlight(scene, material) : kPi);
     }
   }
 
