@@ -8,11 +8,10 @@
 namespace phongpipe {
 
 struct DatapathInputs {
-  const Span* span = nullptr;               // span_valid where not null; held until span_ready
-  const MaterialSetup* material = nullptr;  // of the span, and of the table that is written
+  const Span* span = nullptr;  // span_valid where not null; held until span_ready
   bool pixel_ready = false;
-  bool rom_write = false;  // one word of every channel at rom_address
-  int rom_address = 0;
+  const HighlightTable* table = nullptr;  // rom_write where not null: every channel's word
+  int rom_address = 0;                    // at this address
 };
 
 struct DatapathOutputs {

@@ -10,14 +10,14 @@ DatapathDriver::Outcome DatapathDriver::clock(const Span* span, bool pixel_ready
   inputs.pixel_ready = pixel_ready;
   Outcome outcome;
   if (span != nullptr) {
-    inputs.material = &frame_->materials[span->material];
-    if (span->material == loaded_) {
+    if (!span->highlight || span->table == loaded_) {
       inputs.span = span;
     } else if (pixels_in_flight_ == 0) {
-      inputs.rom_write = outcome.loading = true;
+      outcome.loading = true;
+      inputs.table = &frame_->tables[span->table];
       inputs.rom_address = next_word_++;
       if (next_word_ == frame_->configuration.rom_words()) {
-        loaded_ = span->material;
+        loaded_ = span->table;
         next_word_ = 0;
       }
     }

@@ -1,5 +1,5 @@
-// What stands before the ports of pixel_datapath: presents spans, and for a new material lets the
-// datapath run empty and loads its table, one word a clock.
+// What stands before the ports of pixel_datapath: presents spans, and for a highlight of another
+// table lets the datapath run empty and loads it, one word a clock.
 #pragma once
 
 #include "sim/clocked_datapath.h"
@@ -24,11 +24,11 @@ class DatapathDriver {
   std::int64_t busy_clocks() const { return busy_clocks_; }
 
  private:
-  static constexpr std::uint32_t kNoMaterial = ~std::uint32_t{0};
+  static constexpr std::uint32_t kNoTable = ~std::uint32_t{0};
 
   const FrameSetup* frame_;
   ClockedDatapath* datapath_;
-  std::uint32_t loaded_ = kNoMaterial;
+  std::uint32_t loaded_ = kNoTable;
   int next_word_ = 0;
   std::int64_t pixels_in_flight_ = 0;
   std::int64_t busy_clocks_ = 0;

@@ -1,14 +1,19 @@
 #include "sim/datapath_pipeline.h"
 
+#include <algorithm>
+
 namespace phongpipe {
 
-DatapathPipeline::DatapathPipeline(const DatapathConfiguration& configuration)
-    : values_(configuration), last_address_(configuration.rom_words() - 1) {}
+DatapathPipeline::DatapathPipeline(const DatapathConfiguration& configuration,
+                                   const OutputColor& cue_color)
+    : values_(configuration, best_evaluation(), cue_color),
+      last_address_(configuration.rom_words() - 1),
+      stages_(static_cast<std::size_t>(configuration.latency() - 1)) {}
 
 void DatapathPipeline::reset() {
   row_ = {};
   next_ = 0;
-  stages_ = {};
+  std::fill(stages_.begin(), stages_.end(), Stage{});
 }
 
 void DatapathPipeline::accept(const Span& span) {
@@ -40,8 +45,8 @@ DatapathOutputs DatapathPipeline::clock(const DatapathInputs& inputs) {
   }
   // The first stage is free when its last pixel has just moved on.
   outputs.span_ready = next_ >= row_.length;
-  if (inputs.rom_write && inputs.rom_address == last_address_) {
-    values_.load_material(*inputs.material);
+  if (inputs.table != nullptr && inputs.rom_address == last_address_) {
+    values_.load_table(*inputs.table);
   }
   if (inputs.span != nullptr && outputs.span_ready) accept(*inputs.span);
   return outputs;

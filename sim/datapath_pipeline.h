@@ -1,8 +1,7 @@
-// pixel_datapath by the clock: the model's values in kDatapathLatency stages, each of which moves
-// on when the next one is free.
+// pixel_datapath by the clock: the model's values in as many stages as the datapath has latency,
+// each of which moves on when the next one is free.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "model/fixed/pixel_datapath.h"
@@ -12,7 +11,8 @@ namespace phongpipe {
 
 class DatapathPipeline : public ClockedDatapath {
  public:
-  explicit DatapathPipeline(const DatapathConfiguration& configuration);
+  explicit DatapathPipeline(const DatapathConfiguration& configuration,
+                            const OutputColor& cue_color = {});
 
   void reset() override;
   DatapathOutputs clock(const DatapathInputs& inputs) override;
@@ -30,7 +30,7 @@ class DatapathPipeline : public ClockedDatapath {
   std::vector<std::uint32_t> colors_;
   RowSpan row_;
   int next_ = 0;
-  std::array<Stage, kDatapathLatency - 1> stages_;
+  std::vector<Stage> stages_;
 };
 
 }  // namespace phongpipe

@@ -5,6 +5,7 @@
 
 #include "model/fixed/front_end.h"
 #include "sim/pipeline.h"
+#include "sim/schedule.h"
 #include "sim/timestamped_fifo.h"
 
 namespace phongpipe {
@@ -15,12 +16,25 @@ struct FrameContext {
   const SimulationOptions& options;
   FrontEnd front_end;
   SimulationResult& result;
+  SetupTimes setup_times;       // of the setup engine's plans
   std::uint64_t delivered = 0;  // pixels that have left pixel_datapath
 
+  // Sets up what is next; `busy` grows by the cycles it takes, which may be many for nothing.
+  SetupOutcome set_up(const TriangleOrder& next, TriangleWork& work, Cycle& busy) {
+    const SetupOutcome outcome = front_end.set_up(next.triangle(), next.pass(), work);
+    if (outcome == SetupOutcome::nothing) return outcome;
+    const SetupTimes::Cost& cost = setup_times.of(work.setup.plan);
+    busy += cost.cycles;
+    result.setup_cycles += cost.cycles;
+    result.setup_operations = result.setup_operations + cost.operations;
+    return outcome;
+  }
+
   // Cycles the framebuffer spends on pixel `place` of the stream.
-  Cycle framebuffer_cycles(bool written, std::uint32_t place) const {
-    const Cycle cycles =
-        written ? configuration.framebuffer_write_cycles : configuration.framebuffer_test_cycles;
+  Cycle framebuffer_cycles(bool base, bool taken, std::uint32_t place) const {
+    const Cycle cycles = !taken ? configuration.framebuffer_test_cycles
+                         : base ? configuration.framebuffer_write_cycles
+                                : configuration.framebuffer_add_cycles;
     if (options.stall_percent == 0) return cycles;
     const std::uint32_t random = scramble(place * 2654435769U + options.stall_seed);
     const bool stalled = random % 100 < static_cast<std::uint32_t>(options.stall_percent);
@@ -59,6 +73,8 @@ using WorkHandle = std::shared_ptr<const TriangleWork>;
 struct DepthPixel {
   ShadedPixel pixel;
   std::uint32_t depth = 0;
+  std::uint32_t triangle = 0;
+  bool base = true;
 };
 
 }  // namespace phongpipe

@@ -14,6 +14,16 @@
 namespace phongpipe {
 namespace {
 
+// The names of the modules below `objects`, in the order of elaboration.
+void list_modules(const std::vector<sc_core::sc_object*>& objects,
+                  std::vector<std::string>& names) {
+  for (const sc_core::sc_object* object : objects) {
+    if (dynamic_cast<const sc_core::sc_module*>(object) == nullptr) continue;
+    names.emplace_back(object->name());
+    list_modules(object->get_child_objects(), names);
+  }
+}
+
 void simulate_by_span(FrameContext& context) {
   const PipelineConfiguration& configuration = context.configuration;
   TimestampedFifo<WorkHandle> triangles("triangles", configuration.triangle_fifo);
@@ -29,6 +39,7 @@ void simulate_by_span(FrameContext& context) {
     pixel_datapath = std::make_unique<by_span::ClockedPixelDatapath>(
         "pixel_datapath", context, spans, framebuffer, *context.options.datapath);
   }
+  list_modules(sc_core::sc_get_top_level_objects(), context.result.modules);
   sc_core::sc_start();
   context.result.framebuffer = framebuffer.take_memory();
 }
@@ -41,7 +52,7 @@ void simulate_by_clock(FrameContext& context) {
   ClockedFifo<WorkHandle> triangles("triangles", configuration.triangle_fifo);
   ClockedFifo<Span> spans("spans", configuration.span_fifo);
   ClockedFifo<DepthPixel> pixels("pixels", configuration.pixel_fifo);
-  DatapathPipeline own_datapath(context.frame.configuration);
+  DatapathPipeline own_datapath(context.frame.configuration, context.frame.cue_color);
   ClockedDatapath& datapath =
       context.options.datapath != nullptr ? *context.options.datapath : own_datapath;
   by_clock::SetupEngine setup_engine("setup_engine", context, clk, triangles);
@@ -51,6 +62,7 @@ void simulate_by_clock(FrameContext& context) {
   const by_clock::Watchdog watchdog(
       "watchdog", context, period,
       {setup_engine, span_walker, pixel_datapath, framebuffer, triangles, spans, pixels});
+  list_modules(sc_core::sc_get_top_level_objects(), context.result.modules);
   sc_core::sc_start();
   context.result.framebuffer = framebuffer.take_memory();
 }
@@ -69,8 +81,8 @@ SimulationResult simulate(const FrameSetup& frame, const Geometry& geometry,
   configuration.check();
 
   SimulationResult result(frame);
-  result.setup_cycles = schedule_cycles(record_setup(frame.plan), configuration);
-  FrameContext context{frame, configuration, options, FrontEnd(frame, geometry), result};
+  FrameContext context{
+      frame, configuration, options, FrontEnd(frame, geometry), result, SetupTimes(configuration)};
   if (options.detail == Detail::span) {
     simulate_by_span(context);
   } else {

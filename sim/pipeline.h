@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "model/fixed/framebuffer.h"
+#include "model/shading/dataflow.h"
 #include "sim/clocked_datapath.h"
+#include "sim/datapath_blocks.h"
 #include "sim/pipeline_configuration.h"
 
 namespace phongpipe {
@@ -45,8 +47,12 @@ struct SimulationResult {
   Framebuffer framebuffer;           // at the end; values are colours
   std::int64_t frame_cycles = 0;     // until the framebuffer has taken the last pixel
   std::int64_t datapath_cycles = 0;  // until pixel_datapath has delivered it
-  std::int64_t setup_cycles = 0;     // of one triangle
+  std::int64_t setup_cycles = 0;     // in which the setup engine was at work
   std::int64_t rom_load_cycles = 0;
+  OperationCounts setup_operations;
+  PixelOperations pixel_operations;  // unless a ClockedDatapath shades by the span
+  std::uint64_t depth_additions = 0;
+  std::vector<std::string> modules;  // elaborated, with their parents' names
   // In which a ClockedDatapath held a pixel or was offered a span; 0 for the closed form by the
   // span.
   std::int64_t datapath_busy_cycles = 0;

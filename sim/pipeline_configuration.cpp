@@ -25,10 +25,12 @@ void PipelineConfiguration::check() const {
   check_units("adders", adders);
   check_units("multipliers", multipliers);
   check_units("rsqrt", rsqrt);
+  check_units("power_units", power);
   require_range("span_walker.triangle_cycles", walker_triangle_cycles, 1, 1000);
   require_range("span_walker.row_cycles", walker_row_cycles, 1, 1000);
   require_range("framebuffer.write_cycles", framebuffer_write_cycles, 1, 1000);
   require_range("framebuffer.test_cycles", framebuffer_test_cycles, 1, 1000);
+  require_range("framebuffer.add_cycles", framebuffer_add_cycles, 1, 1000);
   require_range("framebuffer.depth_bits", depth_bits, 8, 30);
   require_range("queues.triangles", triangle_fifo, 1, 4096);
   require_range("queues.spans", span_fifo, 1, 4096);

@@ -16,12 +16,14 @@ struct PipelineConfiguration {
   Units adders = {2, 2, 1};
   Units multipliers = {2, 3, 1};
   Units rsqrt = {1, 10, 2};
+  Units power = {1, 8, 1};
 
   int walker_triangle_cycles = 2;  // from taking a triangle to its first span
   int walker_row_cycles = 1;       // from one span to the next
 
   int framebuffer_write_cycles = 1;  // a pixel that passes the depth test
-  int framebuffer_test_cycles = 1;   // one that fails it
+  int framebuffer_test_cycles = 1;   // one that fails it, or is not the one seen
+  int framebuffer_add_cycles = 1;    // one of a further light: read, added, written
 
   // Depths of the queues before span_walker, pixel_datapath and framebuffer.
   int triangle_fifo = 4;

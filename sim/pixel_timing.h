@@ -1,47 +1,48 @@
 // Time of single pixels between the entrance of pixel_datapath and the framebuffer, in closed form.
 //
 // A pixel enters in cycle `in`, leaves the datapath in `out`, and is read by the framebuffer in
-// `read`. The datapath holds kDatapathLatency pixels, the queue behind it `depth`:
-//   in(j)   = max(asked, in(j−1) + 1, out(j − kDatapathLatency))
-//   out(j)  = max(in(j) + kDatapathLatency, out(j−1) + 1, read(j − depth) + 1)
+// `read`. The datapath holds as many pixels as its latency, the queue behind it `depth`:
+//   in(j)   = max(asked, in(j−1) + 1, out(j − latency))
+//   out(j)  = max(in(j) + latency, out(j−1) + 1, read(j − depth) + 1)
 //   read(j) = max(out(j) + 1, read(j−1) + cost(j−1))
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
-#include "model/fixed/constants.h"
 #include "sim/timestamped_fifo.h"
 
 namespace phongpipe {
 
 class PixelTiming {
  public:
-  explicit PixelTiming(int depth) : read_(static_cast<std::size_t>(depth), -1) { out_.fill(-1); }
+  PixelTiming(int latency, int depth)
+      : latency_(latency),
+        out_(static_cast<std::size_t>(latency), -1),
+        read_(static_cast<std::size_t>(depth), -1) {}
 
   // The next `count` pixels, the first of which may enter from cycle `asked`. `cycles` holds what
   // each takes the framebuffer, and is overwritten by the cycle each leaves in. Returns the cycle
   // the first one enters in.
   Cycle next(Cycle asked, std::size_t count, Cycle* cycles) {
     // What cycles[i] may alias, as far as the compiler can tell, is kept in locals meanwhile.
-    std::array<Cycle, kDatapathLatency> out = out_;
     Cycle in = in_, last_out = last_out_, free_from = free_from_, taken = 0;
     std::size_t place = read_place_, out_place = out_place_;
     Cycle* const reads = read_.data();
-    const std::size_t depth = read_.size();
+    Cycle* const out = out_.data();
+    const std::size_t depth = read_.size(), held = out_.size();
+    const Cycle latency = latency_;
     for (std::size_t i = 0; i < count; ++i) {
       in = std::max({asked, in + 1, out[out_place]});
       if (i == 0) taken = in;
-      last_out = std::max({in + kDatapathLatency, last_out + 1, reads[place] + 1});
+      last_out = std::max({in + latency, last_out + 1, reads[place] + 1});
       out[out_place] = last_out;
-      out_place = (out_place + 1) % out.size();
+      if (++out_place == held) out_place = 0;
       reads[place] = std::max(last_out + 1, free_from);
       free_from = reads[place] + cycles[i];
       if (++place == depth) place = 0;
       cycles[i] = last_out;
     }
-    out_ = out;
     in_ = in;
     last_out_ = last_out;
     free_from_ = free_from;
@@ -66,8 +67,9 @@ class PixelTiming {
 
  private:
   Cycle in_ = -1, last_out_ = -1, free_from_ = 0;
-  std::array<Cycle, kDatapathLatency> out_;  // of the last pixels
-  std::size_t out_place_ = 0;                // of the earliest of them
+  Cycle latency_;
+  std::vector<Cycle> out_;     // of the last pixels
+  std::size_t out_place_ = 0;  // of the earliest of them
   std::vector<Cycle> read_;
   std::size_t read_place_ = 0;
 };

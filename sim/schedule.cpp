@@ -9,6 +9,8 @@
 namespace phongpipe {
 namespace {
 
+constexpr std::size_t kKinds = 4;  // of operations that the setup engine has units for
+
 const Units& units_for(Operation operation, const PipelineConfiguration& units) {
   switch (operation) {
     case Operation::add:
@@ -17,6 +19,8 @@ const Units& units_for(Operation operation, const PipelineConfiguration& units) 
       return units.multipliers;
     case Operation::rsqrt:
       return units.rsqrt;
+    case Operation::power:
+      return units.power;
     case Operation::divide:
     case Operation::sqrt:
     case Operation::read:
@@ -44,12 +48,23 @@ std::vector<int> remaining_path(const Dataflow& dataflow, const PipelineConfigur
 
 Dataflow record_setup(const SeriesPlan& plan) {
   Recording recording;
-  setup_triangle(plan, TriangleInput<Recorded>{}, LightInput<Recorded>{});
+  const TriangleInput<Recorded> triangle;
+  const LightInput<Recorded> light;
+  bound_triangle(plan, triangle, light);
+  setup_triangle(plan, triangle, light);
   return recording.dataflow();
 }
 
+const SetupTimes::Cost& SetupTimes::of(const SeriesPlan& plan) {
+  for (const Cost& cost : known_) {
+    if (cost.plan == plan) return cost;
+  }
+  const Dataflow dataflow = record_setup(plan);
+  known_.push_back({plan, dataflow.counts(), schedule_cycles(dataflow, *units_)});
+  return known_.back();
+}
+
 int schedule_cycles(const Dataflow& dataflow, const PipelineConfiguration& units) {
-  constexpr std::size_t kKinds = 3;
   const std::size_t count = dataflow.nodes.size();
   const std::vector<int> path = remaining_path(dataflow, units);
   std::vector<std::vector<std::size_t>> users(count);
@@ -72,9 +87,9 @@ int schedule_cycles(const Dataflow& dataflow, const PipelineConfiguration& units
   }
 
   std::array<std::vector<int>, kKinds> unit_free;
-  for (const Operation operation : {Operation::add, Operation::multiply, Operation::rsqrt}) {
-    const auto units_of_kind = static_cast<std::size_t>(units_for(operation, units).count);
-    unit_free[static_cast<std::size_t>(operation)].assign(units_of_kind, 0);
+  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+    const Units& unit = units_for(static_cast<Operation>(kind), units);
+    unit_free[kind].assign(static_cast<std::size_t>(unit.count), 0);
   }
   int end = 0;
   std::size_t started = 0;

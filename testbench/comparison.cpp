@@ -212,9 +212,6 @@ Comparison compare(const std::filesystem::path& file, const Hardware& hardware,
   comparison.scene = file;
   comparison.hardware = hardware;
   const Scene scene = load_scene(file);
-  if (scene.depth_cue) {
-    throw InputError(scene.file, 0, "depth cueing is not compared yet; leave [depth_cue] out");
-  }
   const Geometry geometry = make_geometry(scene);
   suit_scene(comparison.hardware, scene, geometry);
   comparison.width = scene.image.width;

@@ -1,5 +1,5 @@
 // The links between exact Phong and the output, pixel by pixel: exact Phong → real polynomial →
-// rounded coefficients → ROM → 8-bit output.
+// rounded coefficients → ROM → 8-bit output. All lights together.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct ErrorChain {
   Color output;           // the datapath's output
 };
 
-// For every visible pixel of the model's frame, in the order of the stream.
+// For every visible pixel of the model's frame, triangle by triangle.
 void for_each_visible_pixel(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
                             const ModelFrame& model,
                             const std::function<void(const ErrorChain&)>& visit);

@@ -148,10 +148,14 @@ std::vector<Setting> settings(Hardware& hardware) {
       number("setup_engine", "rsqrt", p.rsqrt.count),
       number("setup_engine", "rsqrt_latency", p.rsqrt.latency),
       number("setup_engine", "rsqrt_interval", p.rsqrt.interval),
+      number("setup_engine", "power_units", p.power.count),
+      number("setup_engine", "power_units_latency", p.power.latency),
+      number("setup_engine", "power_units_interval", p.power.interval),
       number("span_walker", "triangle_cycles", p.walker_triangle_cycles),
       number("span_walker", "row_cycles", p.walker_row_cycles),
       number("framebuffer", "write_cycles", p.framebuffer_write_cycles),
       number("framebuffer", "test_cycles", p.framebuffer_test_cycles),
+      number("framebuffer", "add_cycles", p.framebuffer_add_cycles),
       number("framebuffer", "depth_bits", p.depth_bits),
       number("queues", "triangles", p.triangle_fifo),
       number("queues", "spans", p.span_fifo),
@@ -170,9 +174,12 @@ Hardware load_hardware(const std::string& name, const std::vector<std::string>& 
   return hardware;
 }
 
-void suit_scene(Hardware& hardware, const Scene& scene, const Geometry& geometry) {
-  if (hardware.choose_channels) hardware.datapath.channels = is_grey(scene, geometry) ? 1 : 3;
-  hardware.datapath = suit_scene(hardware.datapath, scene, geometry);
+void suit_scene(Hardware& hardware, const Scene& scene, const Geometry& geometry, Effects effects) {
+  if (hardware.choose_channels) {
+    const bool grey = effects == Effects::derived && is_grey(scene, geometry);
+    hardware.datapath.channels = grey ? 1 : 3;
+  }
+  hardware.datapath = suit_scene(hardware.datapath, scene, geometry, effects);
 }
 
 std::string configuration_hash(const Hardware& hardware) {

@@ -40,8 +40,9 @@ std::vector<Setting> settings(Hardware& hardware);
 // technology=card. Throws InputError.
 Hardware load_hardware(const std::string& name, const std::vector<std::string>& overrides);
 
-// Sets what the scene decides: channels and the source of the gate.
-void suit_scene(Hardware& hardware, const Scene& scene, const Geometry& geometry);
+// Sets what the scene decides: channels, the blocks of its effects, the source of the gate.
+void suit_scene(Hardware& hardware, const Scene& scene, const Geometry& geometry,
+                Effects effects = Effects::derived);
 
 // Identifies a result: a hash over every setting and the technology, 16 hexadecimal digits.
 std::string configuration_hash(const Hardware& hardware);

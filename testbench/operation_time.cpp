@@ -27,14 +27,15 @@ double clocks(const OperationCounts& counts, const PipelineConfiguration& units)
   const auto rsqrts = static_cast<double>(counts.rsqrt + pairs + divisions + roots);
   return std::max({static_cast<double>(counts.add) / per_clock(units.adders),
                    multiplications / per_clock(units.multipliers), rsqrts / per_clock(units.rsqrt),
+                   static_cast<double>(counts.power) / per_clock(units.power),
                    static_cast<double>(counts.read)});
 }
 
 double sequential_operations(const OperationCounts& counts) {
-  constexpr double kRoot = 10;
+  constexpr double kTabled = 10;
   const auto [pairs, divisions, roots] = roots_of(counts);
   return static_cast<double>(counts.add + counts.multiply + counts.read + pairs) +
-         kRoot * static_cast<double>(counts.rsqrt + pairs + divisions + roots);
+         kTabled * static_cast<double>(counts.rsqrt + counts.power + pairs + divisions + roots);
 }
 
 }  // namespace phongpipe

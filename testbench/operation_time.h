@@ -12,7 +12,7 @@ namespace phongpipe {
 double clocks(const OperationCounts& counts, const PipelineConfiguration& units);
 
 // Operations one after the other as Bishop & Weimer count them: additions, multiplications and
-// memory references 1 each, 1/√x and what is made of it 10.
+// memory references 1 each, 1/√x and what is made of it 10; so are powers.
 double sequential_operations(const OperationCounts& counts);
 
 }  // namespace phongpipe

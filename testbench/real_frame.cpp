@@ -1,7 +1,6 @@
 #include "testbench/real_frame.h"
 
 #include "model/fixed/constants.h"
-#include "model/scene/input_error.h"
 #include "model/shading/phong.h"
 #include "testbench/best_triangle.h"
 
@@ -34,9 +33,6 @@ std::vector<Color> render(const Scene& scene, const Geometry& geometry,
 
 std::vector<Color> render_phong(const Scene& scene, const Geometry& geometry,
                                 const Visibility& visibility) {
-  if (scene.depth_cue) {
-    throw InputError(scene.file, 0, "depth cueing is not rendered yet; leave [depth_cue] out");
-  }
   return render(scene, geometry, visibility, [&](std::uint32_t t) {
     const ScreenTriangle& triangle = geometry.triangles[t];
     return PhongTriangle(scene, geometry.materials[triangle.material], triangle);

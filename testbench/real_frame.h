@@ -9,7 +9,7 @@
 
 namespace phongpipe {
 
-// Exact Phong shading of everything the scene format describes but depth cueing.
+// Exact Phong shading of everything the scene format describes.
 std::vector<Color> render_phong(const Scene& scene, const Geometry& geometry,
                                 const Visibility& visibility);
 

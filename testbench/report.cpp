@@ -2,10 +2,9 @@
 
 #include <fmt/color.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
-
-#include "sim/schedule.h"
 
 namespace phongpipe {
 namespace {
@@ -82,16 +81,85 @@ void report_hardware(Page& page, const Verification& v) {
             d.diffuse_width() - 1 - d.diffuse_fraction_bits, d.diffuse_fraction_bits,
             d.specular_width() - 1 - d.specular_fraction_bits, d.specular_fraction_bits, d.series(),
             d.adders(), d.rom_words(), d.channels * d.rom_data_bits,
-            d.gate == GateSource::series ? "; 2 adders of them only for the sign of N·L" : "");
-  const OperationCounts counts = record_setup(v.plan).counts();
-  page.line("setup", "{} cycles a triangle for {} additions, {} multiplications, {} 1/√",
-            v.systemc.setup_cycles, counts.add, counts.multiply, counts.rsqrt);
+            d.has_gate_series() ? "; 2 adders of them only for the sign of N·L" : "");
+  const OperationCounts& counts = v.systemc.setup_operations;
+  const auto each = [&v](auto count) {
+    return static_cast<double>(count) / static_cast<double>(v.triangles_set_up);
+  };
+  page.line("setup",
+            "{:.1f} cycles a triangle, on average, for {:.1f} additions, {:.1f} multiplications, "
+            "{:.1f} 1/√",
+            each(v.systemc.setup_cycles), each(counts.add), each(counts.multiply),
+            each(counts.rsqrt));
   if (v.triangles_split > 0) {
     page.line(
         "subdivision",
         "{} triangles that turn by more than {}°, or than their highlight reaches, split into {}",
         v.triangles_split, d.subdivide_degrees, v.pieces);
   }
+}
+
+// What `own` needs of `all`, and the difference in per cent.
+template <typename Count>
+std::string of_all(Count own, Count all) {
+  const double part = all > 0 ? static_cast<double>(own) / static_cast<double>(all) - 1 : 0;
+  const double percent = std::round(100 * part);
+  return fmt::format("{} of {} ({:+.0f} %)", own, all, percent == 0 ? 0.0 : percent);
+}
+
+std::size_t operations(const OperationCounts& counts) {
+  return counts.add + counts.multiply + counts.rsqrt;
+}
+
+std::uint64_t operations(const PixelOperations& counts) {
+  return counts.additions + counts.multiplications + counts.reads;
+}
+
+void report_effects(Page& page, const Verification& v) {
+  page.line("effects", "{}", fmt::join(v.effects.used, ", "));
+  if (!v.everything) {
+    page.line("", "everything is built and simulated, whether the scene has it or not");
+    return;
+  }
+  page.line("left out", "{}", fmt::join(v.effects.left_out, ", "));
+  const Account &own = v.systemc, &all = v.everything->systemc;
+  const DatapathConfiguration &built = v.hardware.datapath, &full = v.everything->datapath;
+  page.line("of everything", "cycles {}, setup operations {}, pixel operations {}",
+            of_all(own.frame_cycles, all.frame_cycles),
+            of_all(operations(own.setup_operations), operations(all.setup_operations)),
+            of_all(operations(own.pixel_operations), operations(all.pixel_operations)));
+  page.line("", "adders {}, multipliers {} of {}, ROM bits {}, clock {:.2f} of {:.2f} ns",
+            of_all(built.adders(), full.adders()), built.multipliers(), full.multipliers(),
+            of_all(built.rom_bits(), full.rom_bits()), v.hardware.clock_ns(),
+            v.hardware.technology.clock_ns(full));
+  page.line("", "SystemC modules {} of {}, simulation {:.0f} ms of {:.0f} ms; {}",
+            own.modules.size(), all.modules.size(), 1e3 * own.seconds, 1e3 * all.seconds,
+            page.verdict(all.frame_mismatches == 0,
+                         fmt::format("{} pixels differ from everything's", all.frame_mismatches)));
+}
+
+nlohmann::ordered_json built_json(const Verification& v, const DatapathConfiguration& datapath,
+                                  const Account& account) {
+  return {{"clock_ns", v.hardware.technology.clock_ns(datapath)},
+          {"frame_cycles", account.frame_cycles},
+          {"setup_operations", operations(account.setup_operations)},
+          {"pixel_operations", operations(account.pixel_operations)},
+          {"adders", datapath.adders()},
+          {"multipliers", datapath.multipliers()},
+          {"rom_bits", datapath.rom_bits()},
+          {"modules", account.modules},
+          {"simulation_seconds", account.seconds}};
+}
+
+nlohmann::ordered_json effects_json(const Verification& v) {
+  nlohmann::ordered_json json = {{"used", v.effects.used},
+                                 {"left_out", v.effects.left_out},
+                                 {"built", built_json(v, v.hardware.datapath, v.systemc)}};
+  if (v.everything) {
+    json["everything"] = built_json(v, v.everything->datapath, v.everything->systemc);
+    json["everything"]["frame_mismatches"] = v.everything->systemc.frame_mismatches;
+  }
+  return json;
 }
 
 void report_accuracy(Page& page, const Accuracy& accuracy) {
@@ -123,6 +191,7 @@ std::string report_text(const Verification& v, bool color) {
   for (const std::string& note : v.notes) page.line("note", "{}", note);
   page.line("hardware", "{}, configuration {}", v.hardware.name, configuration_hash(v.hardware));
   report_hardware(page, v);
+  report_effects(page, v);
   report_account(page, "systemc", v.systemc, v);
   report_account(page, "rtl", v.rtl, v);
   const std::int64_t difference = v.cycle_difference();
@@ -178,6 +247,7 @@ nlohmann::ordered_json report_json(const Verification& v) {
           {"triangles_read", v.triangles_read},
           {"subdivision", {{"triangles", v.triangles_split}, {"pieces", v.pieces}}},
           {"pixels", v.pixels},
+          {"effects", effects_json(v)},
           {"mismatches",
            {{"model_rtl", v.rtl.mismatches + v.rtl.frame_mismatches},
             {"model_systemc", v.systemc.mismatches + v.systemc.frame_mismatches}}},
@@ -186,7 +256,9 @@ nlohmann::ordered_json report_json(const Verification& v) {
             {"datapath_rtl", v.rtl.datapath_cycles},
             {"datapath_systemc", v.systemc.datapath_cycles},
             {"difference", v.cycle_difference()},
-            {"setup_per_triangle", v.systemc.setup_cycles},
+            {"setup", v.systemc.setup_cycles},
+            {"setup_per_triangle",
+             static_cast<double>(v.systemc.setup_cycles) / static_cast<double>(v.triangles_set_up)},
             {"rom_load", v.systemc.rom_load_cycles}}},
           {"clock_ns", v.hardware.clock_ns()},
           {"clock_source", v.hardware.technology.source},

@@ -54,7 +54,8 @@ double Technology::clock_ns(const DatapathConfiguration& configuration) const {
         name, width, configuration.rom_address_bits));
   }
   const bool larger_table = *size != sizes.front();
-  return base->ns + (larger_table ? table_penalty(points, sizes.front(), *size) : 0);
+  const double ns = base->ns + (larger_table ? table_penalty(points, sizes.front(), *size) : 0);
+  return configuration.depth_cue ? std::max(ns, depth_cue_ns) : ns;
 }
 
 Technology load_technology(const std::string& name) {
@@ -74,6 +75,7 @@ Technology load_technology(const std::string& name) {
                                    point.number("ns", nanoseconds)});
       point.finish();
     }
+    technology.depth_cue_ns = table.number("depth_cue_ns", nanoseconds, 0);
     std::sort(technology.points.begin(), technology.points.end(),
               [](const Point& a, const Point& b) { return a.width < b.width; });
     // Fail at the card, not at the configuration that happens to need the missing pair.

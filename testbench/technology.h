@@ -1,4 +1,5 @@
-// A technology card: how long a clock of the pixel datapath is, by its width and table size.
+// A technology card: how long a clock of the pixel datapath is, by its width, table size and
+// effects.
 #pragma once
 
 #include <filesystem>
@@ -19,6 +20,7 @@ struct Technology {
   std::string source;         // where the figures come from
   std::vector<Point> points;  // by width; empty where the clock is fixed
   double fixed_ns = 0;
+  double depth_cue_ns = 0;  // the least clock with the multiplier of depth cueing, where points are
 
   // The clock of the next wider point; a larger table adds what it adds at the width where both
   // sizes were measured.

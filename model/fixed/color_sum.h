@@ -28,10 +28,16 @@ inline std::int32_t aligned_word(const DatapathConfiguration& configuration, std
   return word << std::max(0, kOutputBits - configuration.rom_data_bits);
 }
 
+// In output LSB, not yet saturated: depth cueing comes before.
+inline std::int32_t light_sum(const DatapathConfiguration& configuration, std::int32_t diffuse,
+                              std::int32_t aligned) {
+  return (diffuse + aligned) >> configuration.sum_fraction_bits();
+}
+
 inline std::uint8_t color_sum(const DatapathConfiguration& configuration, std::int32_t diffuse,
                               std::int32_t aligned) {
-  const std::int32_t sum = (diffuse + aligned) >> configuration.sum_fraction_bits();
-  return static_cast<std::uint8_t>(std::min(sum, kOutputMax));
+  return static_cast<std::uint8_t>(
+      std::min(light_sum(configuration, diffuse, aligned), kOutputMax));
 }
 
 }  // namespace phongpipe

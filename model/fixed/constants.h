@@ -2,12 +2,16 @@
 // when the two differ.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 namespace phongpipe {
 
 // Output: one channel of a pixel is an unsigned integer of kOutputBits; 1 LSB is 1/255 of full
 // scale.
 constexpr int kOutputBits = 8;
 constexpr int kOutputMax = (1 << kOutputBits) - 1;
+using OutputColor = std::array<std::uint8_t, 3>;  // of the channels in use
 
 // Integer guard bits of every series: a Taylor polynomial overshoots 1 when the peak lies inside
 // the triangle, by less than a factor of two while max |Nᵢ − C| / |C| < 1.86.
@@ -17,8 +21,17 @@ constexpr int kCoordinateBits = 12;               // x and y, 0 … 4095
 constexpr int kLengthBits = kCoordinateBits + 1;  // pixels in a span, 1 … 4096
 
 // Clocks from the acceptance of a span to its first pixel at the output of pixel_datapath, and at
-// the same time the number of pixels the datapath holds.
+// the same time the number of pixels the datapath holds; depth cueing takes a stage more.
 constexpr int kDatapathLatency = 4;
+constexpr int kDepthCueLatency = 1;
+
+// The share of a pixel's own colour under depth cueing: a linear series
+// s(kCueIntegerBits).(kCueFraction) that is clamped to 0 … 1 and cut to kCueFactorBits before it is
+// multiplied with.
+constexpr int kCueIntegerBits = 11;
+constexpr int kCueFraction = 20;
+constexpr int kCueFactorBits = 10;
+constexpr int kCueWidth = 1 + kCueIntegerBits + kCueFraction;
 
 // Legal ranges of the parameters: registers of up to 40 bits, whose exact starts fit in 64.
 constexpr int kMinDiffuseFraction = 4, kMaxDiffuseFraction = 30;

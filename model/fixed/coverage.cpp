@@ -72,6 +72,12 @@ void cover(const ScreenTriangle& triangle, int width, int height, std::vector<Ro
   }
 }
 
+int longest_row(const std::vector<RowSpan>& rows) {
+  int longest = 0;
+  for (const RowSpan& row : rows) longest = std::max(longest, row.length);
+  return longest;
+}
+
 Pixel expansion_pixel(const ScreenTriangle& triangle, const std::vector<RowSpan>& rows) {
   const auto& v = triangle.vertices;
   // Three times the centroid, so that all is whole.

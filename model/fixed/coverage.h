@@ -13,6 +13,9 @@ namespace phongpipe {
 // pixel is covered when its centre is inside, or on a top or left edge. Either orientation.
 void cover(const ScreenTriangle& triangle, int width, int height, std::vector<RowSpan>& rows);
 
+// In pixels; `rows` is not empty.
+int longest_row(const std::vector<RowSpan>& rows);
+
 // The covered pixel whose centre is nearest to the triangle's centroid; `rows` is not empty.
 struct Pixel {
   int x = 0, y = 0;

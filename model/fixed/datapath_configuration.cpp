@@ -29,6 +29,10 @@ void DatapathConfiguration::check() const {
   require_range("datapath.rom_data_bits", rom_data_bits, kMinRomDataBits, kMaxRomDataBits,
                 "a word is a fraction of full scale");
   require_range("setup_engine.subdivide_degrees", subdivide_degrees, 0, 180, "0: never");
+  if (specular && !diffuse && gate == GateSource::diffuse) {
+    throw InputError(
+        "datapath.specular_gate = \"diffuse\" needs a diffuse series; use \"series\" or \"off\"");
+  }
 }
 
 }  // namespace phongpipe

@@ -25,7 +25,12 @@ enum class IndexRounding { nearest, truncate };
 enum class GateSource { off, diffuse, series };
 
 struct DatapathConfiguration {
-  int channels = 1;                 // 1 (grey) or 3
+  // The blocks that are built, as the scene's effects ask for (see effects.h).
+  int channels = 1;        // 1 (grey) or 3
+  bool diffuse = true;     // a series a channel; without it the level stands for it
+  bool specular = true;    // series, gate and exponent_rom
+  bool depth_cue = false;  // a linear series, a multiplier a channel and kDepthCueLatency stages
+
   int diffuse_fraction_bits = 16;   // below one output LSB
   int specular_fraction_bits = 12;  // below one ROM address
   int rom_address_bits = 10;
@@ -48,9 +53,18 @@ struct DatapathConfiguration {
   int sum_fraction_bits() const { return std::max(0, rom_data_bits - kOutputBits); }
   int rom_words() const { return 1 << rom_address_bits; }
 
-  // Additions per pixel: two a series, one a channel to add diffuse and specular.
-  int adders() const { return 2 * series() + channels; }
-  int series() const { return channels + 1 + (gate == GateSource::series ? 1 : 0); }
+  bool has_gate_series() const { return specular && gate == GateSource::series; }
+  int series() const {
+    return (diffuse ? channels : 0) + (specular ? 1 : 0) + (has_gate_series() ? 1 : 0);
+  }
+  // Additions per pixel: two a series, one a channel to add diffuse and specular; with depth cueing
+  // one for its linear series and two a channel to move it towards the colour.
+  int adders() const {
+    return 2 * series() + (specular ? channels : 0) + (depth_cue ? 1 + 2 * channels : 0);
+  }
+  int multipliers() const { return depth_cue ? channels : 0; }
+  int rom_bits() const { return specular ? rom_words() * channels * rom_data_bits : 0; }
+  int latency() const { return kDatapathLatency + (depth_cue ? kDepthCueLatency : 0); }
 
   // Throws InputError naming key, value and legal range.
   void check() const;

@@ -23,6 +23,15 @@ struct FixedQuadratic {
   }
 };
 
+// c + a x + b y, the same way.
+struct FixedLinear {
+  std::int64_t c = 0, a = 0, b = 0;
+
+  std::int64_t value(std::int64_t x, std::int64_t y) const {
+    return wrap_add(c, wrap_add(wrap_mul(a, x), wrap_mul(b, y)));
+  }
+};
+
 // What the datapath's registers are loaded with at the start of a span.
 struct SeriesStart {
   std::int64_t v = 0;   // value at the first pixel

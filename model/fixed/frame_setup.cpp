@@ -5,29 +5,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/fixed/coverage.h"
 #include "model/scene/input_error.h"
 
 namespace phongpipe {
 namespace {
 
-void require_simulated(const Scene& scene) {
-  const auto refuse = [&scene](const char* what, const char* instead) {
-    throw InputError(
-        scene.file, 0,
-        fmt::format("{} not simulated yet; {}, or render with --method phong", what, instead));
-  };
-  if (scene.depth_cue) {
-    throw InputError(scene.file, 0, "depth cueing is not simulated yet; leave [depth_cue] out");
-  }
-  if (scene.lights.size() > 1) refuse("several lights are", "keep one [[light]]");
-  if (scene.lights.front().type == LightType::point) {
-    refuse("point lights are", "use type = \"directional\"");
-  }
-  if (scene.lights.front().type == LightType::spot) {
-    refuse("spot lights are", "use type = \"directional\"");
-  }
-  if (scene.shading.highlight == Highlight::reflection) {
-    refuse("reflection highlights (R·V) are", "use highlight = \"halfway\"");
+// A highlight is attenuated by the power's base, which for an exponent of 0 makes no difference.
+void require_exponents(const Scene& scene, const Geometry& geometry) {
+  const bool attenuates = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
+    return is_attenuated(l) || has_spot_factor(l);
+  });
+  for (const Material& material : geometry.materials) {
+    if (attenuates && material.shininess == 0 && (material.specular > 0).any()) {
+      throw InputError(scene.file, 0,
+                       fmt::format("material {}: a shininess of 0 under a light that fades is not "
+                                   "simulated; set a small one, as 0.1, or specular = 0",
+                                   material.name));
+    }
   }
 }
 
@@ -35,35 +30,103 @@ bool is_grey(const Color& color) {
   return color[0] == color[1] && color[1] == color[2];
 }
 
-MaterialSetup set_up_material(const Scene& scene, const Material& material,
-                              const DatapathConfiguration& configuration) {
-  const Light& light = scene.lights.front();
-  const Vec3 to_light = -light.direction;
-  const Vec3 halfway = infinite_eye(scene) + to_light;
+bool is_lit(const Material& material, const Light& light) {
+  return (material.diffuse * light.color > 0).any();
+}
 
-  MaterialSetup setup;
-  setup.light.to_light = to_light;
-  // Looking straight into the light there is no halfway vector, and no highlight.
-  setup.light.halfway = halfway.norm() > 0 ? Vec3(halfway.normalized()) : Vec3(Vec3::Zero());
-  setup.light.specular_scale = configuration.rom_words();
-  setup.light.gate_scale = kOutputMax;
-  setup.light.sharpness = std::max(0.0, material.shininess - 1);
-  for (int c = 0; c < configuration.channels; ++c) {
-    const auto channel = static_cast<std::size_t>(c);
-    setup.light.diffuse_scale[channel] = kOutputMax * material.diffuse[c] * light.color[c];
-    const double ambient = kOutputMax * scene.shading.ambient_light[c] * material.ambient[c];
-    const int fraction = configuration.diffuse_fraction_bits;
-    setup.level[channel] = std::llround(std::ldexp(ambient + 0.5, fraction));
-    setup.roms.emplace_back(configuration, material.specular[c] * light.color[c],
-                            material.shininess);
+bool is_shiny(const Material& material, const Light& light) {
+  return (material.specular * light.color > 0).any();
+}
+
+// Whether `holds` for some material under some light.
+template <typename Condition>
+bool any_pair(const Scene& scene, const Geometry& geometry, Condition holds) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [&](const Light& light) {
+    return std::any_of(geometry.materials.begin(), geometry.materials.end(),
+                       [&](const Material& material) { return holds(material, light); });
+  });
+}
+
+// Whether two triangles cover the same pixel.
+bool overlap(const Scene& scene, const Geometry& geometry) {
+  const auto width = static_cast<std::size_t>(scene.image.width);
+  std::vector<bool> covered(width * static_cast<std::size_t>(scene.image.height));
+  std::vector<RowSpan> rows;
+  for (const ScreenTriangle& triangle : geometry.triangles) {
+    cover(triangle, scene.image.width, scene.image.height, rows);
+    for (const RowSpan& row : rows) {
+      const std::size_t first =
+          static_cast<std::size_t>(row.y) * width + static_cast<std::size_t>(row.x);
+      for (std::size_t i = first; i < first + static_cast<std::size_t>(row.length); ++i) {
+        if (covered[i]) return true;
+        covered[i] = true;
+      }
+    }
   }
-  return setup;
+  return false;
+}
+
+OutputColor output_color(const Color& color) {
+  OutputColor result;
+  for (std::size_t c = 0; c < 3; ++c) {
+    result[c] =
+        static_cast<std::uint8_t>(std::lround(kOutputMax * color[static_cast<Eigen::Index>(c)]));
+  }
+  return result;
+}
+
+int first_visible_address(const HighlightTable& table) {
+  std::size_t first = table.roms.front().words().size();
+  for (const ExponentRom& rom : table.roms) {
+    const auto& words = rom.words();
+    const auto lit = std::find_if(words.begin(), words.end(), [](int word) { return word != 0; });
+    first = std::min(first, static_cast<std::size_t>(lit - words.begin()));
+  }
+  return static_cast<int>(first);
+}
+
+// The largest attenuation by distance at a vertex: what series are relative to.
+double largest_attenuation(const Light& light, const Geometry& geometry) {
+  if (light.type == LightType::directional) return 1;
+  double largest = 0;
+  for (const ScreenTriangle& triangle : geometry.triangles) {
+    for (const ScreenVertex& vertex : triangle.vertices) {
+      largest = std::max(largest, distance_attenuation(light, light_vector(light, vertex).norm()));
+    }
+  }
+  return largest;
+}
+
+LightInput<double> light_input(const Scene& scene, const Light& light, double reference,
+                               const Material& material,
+                               const DatapathConfiguration& configuration) {
+  LightInput<double> input;
+  ReflectionTerms<double>& terms = input.terms;
+  terms.to_light = -light.direction;
+  terms.eye = infinite_eye(scene);
+  const Vec3 halfway = terms.eye + terms.to_light;
+  // Looking straight into the light there is no halfway vector, and no highlight.
+  terms.halfway = halfway.norm() > 0 ? Vec3(halfway.normalized()) : Vec3(Vec3::Zero());
+  for (std::size_t i = 0; i < 3; ++i) terms.attenuation[i] = light.attenuation[i] * reference;
+  terms.spot_axis = -light.direction;
+  terms.spot_exponent = light.spot_exponent;
+  terms.fold = material.shininess > 0 ? 1 / material.shininess : 0;
+  terms.sharpness = std::max(0.0, material.shininess - 1);
+  input.specular_scale = configuration.rom_words();
+  input.gate_scale = kOutputMax;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto channel = static_cast<Eigen::Index>(c);
+    input.diffuse_scale[c] =
+        kOutputMax * material.diffuse[channel] * light.color[channel] * reference;
+  }
+  return input;
 }
 
 }  // namespace
 
 bool is_grey(const Scene& scene, const Geometry& geometry) {
   return is_grey(scene.image.background) && is_grey(scene.shading.ambient_light) &&
+         (!scene.depth_cue || is_grey(scene.depth_cue->color)) &&
          std::all_of(scene.lights.begin(), scene.lights.end(),
                      [](const Light& light) { return is_grey(light.color); }) &&
          std::all_of(geometry.materials.begin(), geometry.materials.end(), [](const Material& m) {
@@ -72,35 +135,40 @@ bool is_grey(const Scene& scene, const Geometry& geometry) {
 }
 
 DatapathConfiguration suit_scene(DatapathConfiguration configuration, const Scene& scene,
-                                 const Geometry& geometry) {
+                                 const Geometry& geometry, Effects effects) {
+  const bool all = effects == Effects::all;
+  configuration.diffuse = all || any_pair(scene, geometry, is_lit);
+  configuration.specular = all || any_pair(scene, geometry, is_shiny);
+  configuration.depth_cue = all || scene.depth_cue.has_value();
   if (configuration.gate == GateSource::off) return configuration;
-  const Color& light = scene.lights.front().color;
-  const bool blind = std::any_of(
-      geometry.materials.begin(), geometry.materials.end(), [&light](const Material& material) {
-        return (material.specular * light > 0).any() && !(material.diffuse * light > 0).any();
-      });
+  const bool blind = any_pair(scene, geometry, [](const Material& material, const Light& light) {
+    return is_shiny(material, light) && !is_lit(material, light);
+  });
   configuration.gate = blind ? GateSource::series : GateSource::diffuse;
   return configuration;
 }
 
-FrameSetup::FrameSetup(const Scene& scene, const Geometry& geometry,
-                       const DatapathConfiguration& chosen, int depth_bits_chosen)
+FrameSetup::FrameSetup(const Scene& described, const Geometry& geometry,
+                       const DatapathConfiguration& chosen, int depth_bits_chosen,
+                       Effects effects_chosen)
     : configuration(chosen),
-      width(scene.image.width),
-      height(scene.image.height),
-      depth_bits(depth_bits_chosen) {
+      effects(effects_chosen),
+      width(described.image.width),
+      height(described.image.height),
+      passes(static_cast<std::uint32_t>(described.lights.size())),
+      depth_test(effects == Effects::all || overlap(described, geometry)),
+      depth_bits(depth_bits_chosen),
+      background(output_color(described.image.background)),
+      scene(&described),
+      materials_of_a_pass(static_cast<std::uint32_t>(geometry.materials.size())) {
   configuration.check();
-  require_simulated(scene);
-  plan.channels = configuration.channels;
-  plan.local_viewer = scene.shading.viewer == Viewer::local;
-  plan.gate_series = configuration.gate == GateSource::series;
-  plan.fit = configuration.series_fit;
-  for (const Material& material : geometry.materials) {
-    materials.push_back(set_up_material(scene, material, configuration));
-  }
-  for (std::size_t c = 0; c < 3; ++c) {
-    background[c] = static_cast<std::uint8_t>(
-        std::lround(kOutputMax * scene.image.background[static_cast<Eigen::Index>(c)]));
+  require_exponents(described, geometry);
+  if (described.depth_cue) cue_color = output_color(described.depth_cue->color);
+  for (std::uint32_t pass = 0; pass < passes; ++pass) {
+    const double reference = largest_attenuation(described.lights[pass], geometry);
+    for (const Material& material : geometry.materials) {
+      materials.push_back(set_up_material(pass, material, reference));
+    }
   }
 
   if (geometry.triangles.empty()) return;
@@ -114,6 +182,60 @@ FrameSetup::FrameSetup(const Scene& scene, const Geometry& geometry,
   depth_offset = nearest;
   const double steps = static_cast<double>((std::int64_t{1} << depth_bits) - 1);
   depth_scale = farthest > nearest ? steps / (farthest - nearest) : 0;
+}
+
+MaterialSetup FrameSetup::set_up_material(std::uint32_t pass, const Material& material,
+                                          double reference) {
+  const Light& light = scene->lights[pass];
+  const bool all = effects == Effects::all;
+  MaterialSetup setup;
+  setup.plan.channels = configuration.channels;
+  setup.plan.diffuse = configuration.diffuse && (all || is_lit(material, light));
+  setup.plan.specular = configuration.specular && (all || is_shiny(material, light));
+  setup.plan.gate_series = setup.plan.specular && configuration.has_gate_series();
+  setup.plan.depth = depth_test && pass == 0;
+  setup.plan.depth_cue = configuration.depth_cue;
+  ReflectionForm& form = setup.plan.form;
+  form.fit = configuration.series_fit;
+  form.point_light = light.type != LightType::directional;
+  form.local_viewer = setup.plan.specular && scene->shading.viewer == Viewer::local;
+  form.highlight = scene->shading.highlight;
+  form.attenuated = is_attenuated(light);
+  form.spot_factor = has_spot_factor(light);
+  setup.light = light_input(*scene, light, reference, material, configuration);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto channel = static_cast<Eigen::Index>(c);
+    const double ambient =
+        pass > 0 ? 0
+                 : kOutputMax * scene->shading.ambient_light[channel] * material.ambient[channel];
+    setup.level[c] = std::llround(std::ldexp(ambient + 0.5, configuration.diffuse_fraction_bits));
+  }
+  if (setup.plan.specular) {
+    setup.table = table_of(material.specular * light.color * reference, material.shininess);
+    setup.first_visible_address = first_visible_address(tables[setup.table]);
+  }
+  // A Taylor series costs no more than its bound does.
+  if (form.fit == SeriesFit::taylor || form.point_light) return setup;
+  setup.plan.bound_light = !all && (setup.plan.diffuse || setup.plan.gate_series);
+  setup.plan.bound_highlight = setup.plan.specular && !form.local_viewer &&
+                               form.highlight == Highlight::halfway &&
+                               !(all && form.fit == SeriesFit::six_point);
+  return setup;
+}
+
+std::uint32_t FrameSetup::table_of(const Color& specular, double shininess) {
+  const auto same = [&](const HighlightTable& table) {
+    return table.shininess == shininess && (table.specular == specular).all();
+  };
+  const auto found = std::find_if(tables.begin(), tables.end(), same);
+  const auto index = static_cast<std::uint32_t>(found - tables.begin());
+  if (found == tables.end()) {
+    tables.push_back({specular, shininess, {}});
+    for (Eigen::Index c = 0; c < configuration.channels; ++c) {
+      tables.back().roms.emplace_back(configuration, specular[c], shininess);
+    }
+  }
+  return index;
 }
 
 }  // namespace phongpipe

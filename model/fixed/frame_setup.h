@@ -1,5 +1,5 @@
-// What is computed once a frame, before the first triangle: light and halfway vectors, and for each
-// material its scales, ambient level and ROM image.
+// What is computed once a frame, before the first triangle: which effects there are, and for each
+// material under each light its scales, ambient level and table of the highlight.
 #pragma once
 
 #include <array>
@@ -13,35 +13,68 @@
 
 namespace phongpipe {
 
+// What is simulated: the effects the scene calls for, triangle by triangle, or everything there is,
+// with coefficients of 0 where the scene has no such effect. The pictures are the same to the bit.
+enum class Effects { derived, all };
+
+// What exponent_rom holds: a ROM a channel, all at the same address.
+struct HighlightTable {
+  Color specular;  // highlight colour, light and largest attenuation included
+  double shininess = 0;
+  std::vector<ExponentRom> roms;
+};
+
+// One material under one light.
 struct MaterialSetup {
+  SeriesPlan plan;
   LightInput<double> light;  // scales: output LSB for diffuse and gate, addresses for specular
   std::array<std::int64_t, 3> level;  // ambient plus the rounding half, in the diffuse format
-  std::vector<ExponentRom> roms;      // one a channel
+  std::uint32_t table = 0;            // in FrameSetup::tables
+  // The first address of the table at which some word is not 0; the number of words if none is.
+  int first_visible_address = 0;
 };
 
 struct FrameSetup {
   DatapathConfiguration configuration;
-  SeriesPlan plan;
+  Effects effects = Effects::derived;
   int width = 0, height = 0;  // of the image
-  std::vector<MaterialSetup> materials;
+  // Every light is a pass over all triangles: the first writes, the others add.
+  std::uint32_t passes = 1;
+  std::vector<MaterialSetup> materials;  // those of the geometry for each pass, pass by pass
+  std::vector<HighlightTable> tables;    // each once
+  bool depth_test = true;                // some pixel is covered twice
   // Depth z is stored as (z − depth_offset) · depth_scale, from 0 to 2^depth_bits − 1.
   int depth_bits = 24;
   double depth_offset = 0, depth_scale = 0;
-  std::array<std::uint8_t, 3> background = {};
+  OutputColor cue_color = {};
+  OutputColor background = {};
+  const Scene* scene = nullptr;  // must outlive the setup
 
   // Throws InputError where the scene asks for what the pipeline does not simulate, or the
-  // configuration is out of range. `configuration.channels` and `.gate` must suit the scene, see
-  // suit_scene.
+  // configuration is out of range. `configuration` must suit the scene, see suit_scene.
   FrameSetup(const Scene& scene, const Geometry& geometry,
-             const DatapathConfiguration& configuration, int depth_bits);
+             const DatapathConfiguration& configuration, int depth_bits,
+             Effects effects = Effects::derived);
+
+  const MaterialSetup& material(std::uint32_t pass, std::uint32_t material) const {
+    return materials[pass * materials_of_a_pass + material];
+  }
+
+ private:
+  // `reference`: what attenuation is relative to.
+  MaterialSetup set_up_material(std::uint32_t pass, const Material& material, double reference);
+  std::uint32_t table_of(const Color& specular, double shininess);
+
+  std::uint32_t materials_of_a_pass = 0;
 };
 
 // Whether every colour of the scene is grey, so that one channel does.
 bool is_grey(const Scene& scene, const Geometry& geometry);
 
-// Sets the gate's source by what the materials in use need: a series of its own where a material
-// has a highlight and no diffuse colour. A gate that is off stays off.
+// The blocks that the scene's effects need, or all of them. The gate's source is a series of its
+// own where a material has a highlight and no diffuse colour; a gate that is off stays off. The
+// number of channels is left alone.
 DatapathConfiguration suit_scene(DatapathConfiguration configuration, const Scene& scene,
-                                 const Geometry& geometry);
+                                 const Geometry& geometry, Effects effects = Effects::derived);
 
 }  // namespace phongpipe

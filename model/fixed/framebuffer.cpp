@@ -15,10 +15,13 @@ std::uint32_t background_color(const FrameSetup& frame) {
 
 }  // namespace
 
-Framebuffer::Framebuffer(const FrameSetup& frame)
+Framebuffer::Framebuffer(const FrameSetup& frame, Owners owners)
     : width_(frame.width), height_(frame.height), background_(background_color(frame)) {
   cells_.reset(static_cast<Cell*>(std::calloc(size(), sizeof(Cell))));
   if (!cells_) throw std::bad_alloc();
+  if (owners == Owners::where_needed && !(frame.depth_test && frame.passes > 1)) return;
+  owners_.reset(static_cast<std::uint32_t*>(std::calloc(size(), sizeof(std::uint32_t))));
+  if (!owners_) throw std::bad_alloc();
 }
 
 }  // namespace phongpipe

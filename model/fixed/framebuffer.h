@@ -1,4 +1,6 @@
-// framebuffer: depth test and write. The nearer pixel wins, the earlier one where depths are equal.
+// framebuffer: depth test, write, and the addition of further lights. The nearer pixel wins, the
+// earlier one where depths are equal. Further lights are added where the triangle that won comes
+// again, so that two surfaces at the same depth are not both added.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +15,10 @@ namespace phongpipe {
 
 class Framebuffer {
  public:
-  explicit Framebuffer(const FrameSetup& frame);
+  // Without `owners` it keeps them only where further lights need to know them: where depths are
+  // tested at all.
+  enum class Owners { where_needed, kept };
+  explicit Framebuffer(const FrameSetup& frame, Owners owners = Owners::where_needed);
 
   // The depth of pixel `i` of a span, 0 to 2^depth_bits − 1; saturates.
   static std::uint32_t depth(const FrameSetup& frame, const Span& span, int i) {
@@ -22,22 +27,30 @@ class Framebuffer {
     return static_cast<std::uint32_t>(std::clamp<std::int64_t>(depth, 0, farthest));
   }
 
-  // Pixel (x, y), inside the image. `value` is what is kept of it: its colour, or its place in a
-  // stream. True where it was written.
-  bool write(int x, int y, std::uint32_t depth, std::uint32_t value) {
-    Cell& cell = cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                        static_cast<std::size_t>(x)];
+  // Pixel (x, y), inside the image, of a span of `triangle`. True where it was written or added.
+  bool write(int x, int y, std::uint32_t depth, std::uint32_t triangle, std::uint32_t color) {
+    const std::size_t index = index_of(x, y);
+    Cell& cell = cells_[index];
     const std::uint32_t nearness = ~depth;
     if (nearness <= cell.nearness) return false;
-    cell = {nearness, value};
+    cell = {nearness, color};
+    if (owners_) owners_[index] = triangle + 1;
+    return true;
+  }
+  bool add(int x, int y, std::uint32_t triangle, std::uint32_t color) {
+    const std::size_t index = index_of(x, y);
+    if (owners_ && owners_[index] != triangle + 1) return false;
+    cells_[index].color = add_saturated(cells_[index].color, color);
     return true;
   }
 
-  // All pixels of a span inside the image; `written` tells of each what write() would.
-  void write_span(const FrameSetup& frame, const Span& span, const std::uint32_t* values,
-                  std::uint8_t* written) {
+  // All pixels of a span inside the image; `taken` tells of each what write() or add() would.
+  void take_span(const FrameSetup& frame, const Span& span, const std::uint32_t* colors,
+                 std::uint8_t* taken) {
     for (int i = 0; i < span.row.length; ++i) {
-      written[i] = write(span.row.x + i, span.row.y, depth(frame, span, i), values[i]);
+      const int x = span.row.x + i;
+      taken[i] = span.base ? write(x, span.row.y, depth(frame, span, i), span.triangle, colors[i])
+                           : add(x, span.row.y, span.triangle, colors[i]);
     }
   }
 
@@ -46,27 +59,45 @@ class Framebuffer {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   }
   bool covered(std::size_t index) const { return cells_[index].nearness != 0; }
-  std::uint32_t value(std::size_t index) const { return cells_[index].value; }
-  // The value as a colour, or the background's, channel 0 in the low byte.
-  std::uint32_t color(std::size_t index) const {
-    return covered(index) ? value(index) : background_;
+  // Whether the triangle's pixel is the one seen; where owners are kept.
+  bool owned(std::size_t index, std::uint32_t triangle) const {
+    return owners_[index] == triangle + 1;
   }
-  std::uint32_t background() const { return background_; }
+  // Channel 0 in the low byte; the background's where nothing is covered.
+  std::uint32_t color(std::size_t index) const {
+    return covered(index) ? cells_[index].color : background_;
+  }
 
  private:
   // All zero where nothing was written: calloc gives that without touching memory, most of which a
   // frame leaves alone. Depths are of 30 bits at most, so that ~depth is never 0.
   struct Cell {
     std::uint32_t nearness;
-    std::uint32_t value;
+    std::uint32_t color;
   };
   struct Free {
-    void operator()(Cell* cells) const { std::free(cells); }
+    void operator()(void* memory) const { std::free(memory); }
   };
+  template <typename T>
+  using Zeroed = std::unique_ptr<T[], Free>;
+
+  std::size_t index_of(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+  static std::uint32_t add_saturated(std::uint32_t a, std::uint32_t b) {
+    std::uint32_t sum = 0;
+    for (int shift = 0; shift < 3 * kOutputBits; shift += kOutputBits) {
+      constexpr auto kMax = static_cast<std::uint32_t>(kOutputMax);
+      sum |= std::min(((a >> shift) & kMax) + ((b >> shift) & kMax), kMax) << shift;
+    }
+    return sum;
+  }
 
   int width_, height_;
   std::uint32_t background_;
-  std::unique_ptr<Cell[], Free> cells_;
+  Zeroed<Cell> cells_;
+  Zeroed<std::uint32_t> owners_;  // triangle + 1; null where not kept
 };
 
 }  // namespace phongpipe

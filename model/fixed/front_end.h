@@ -2,8 +2,10 @@
 // starts of spans.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "model/fixed/cone.h"
 #include "model/fixed/span_walker.h"
 
 namespace phongpipe {
@@ -13,31 +15,62 @@ struct TriangleWork {
   std::vector<RowSpan> rows;
 };
 
+enum class SetupOutcome {
+  nothing,  // no pixel is covered, or the pass's light does not reach the material: no time spent
+  dropped,  // set up as far as `work.setup.plan` goes, and found to add nothing
+  ready
+};
+
 class FrontEnd {
  public:
   FrontEnd(const FrameSetup& frame, const Geometry& geometry)
       : frame_(&frame), geometry_(&geometry), setup_engine_(frame, geometry), span_walker_(frame) {}
 
-  // False where the triangle covers no pixel, and there is nothing to set up.
-  bool set_up(std::uint32_t triangle, TriangleWork& work) const {
+  SetupOutcome set_up(std::uint32_t triangle, std::uint32_t pass, TriangleWork& work) const {
     const ScreenTriangle& source = geometry_->triangles[triangle];
+    const auto adds = [](const SeriesPlan& plan) { return plan.diffuse || plan.specular; };
+    if (pass > 0 && !adds(frame_->material(pass, source.material).plan)) {
+      return SetupOutcome::nothing;
+    }
     cover(source, frame_->width, frame_->height, work.rows);
-    if (work.rows.empty()) return false;
+    split_at_cone(frame_->scene->lights[pass], source, work.rows);
+    const auto dark = [](const RowSpan& row) { return !row.lit; };
+    if (pass > 0) {
+      work.rows.erase(std::remove_if(work.rows.begin(), work.rows.end(), dark), work.rows.end());
+    }
+    if (work.rows.empty()) return SetupOutcome::nothing;
     const Pixel origin = expansion_pixel(source, work.rows);
-    work.setup = setup_engine_.set_up(triangle, origin.x, origin.y);
-    return true;
+    work.setup = setup_engine_.set_up(triangle, pass, origin.x, origin.y, longest_row(work.rows));
+    return pass > 0 && !adds(work.setup.plan) ? SetupOutcome::dropped : SetupOutcome::ready;
   }
 
   const SpanWalker& span_walker() const { return span_walker_; }
   std::uint32_t triangles() const {
     return static_cast<std::uint32_t>(geometry_->triangles.size());
   }
+  std::uint32_t passes() const { return frame_->passes; }
 
  private:
   const FrameSetup* frame_;
   const Geometry* geometry_;
   SetupEngine setup_engine_;
   SpanWalker span_walker_;
+};
+
+// Pass by pass, the triangles in the order of the scene.
+class TriangleOrder {
+ public:
+  explicit TriangleOrder(const FrontEnd& front_end)
+      : triangles_(front_end.triangles()),
+        end_(std::uint64_t{front_end.passes()} * front_end.triangles()) {}
+
+  bool done() const { return next_ == end_; }
+  void advance() { ++next_; }
+  std::uint32_t pass() const { return static_cast<std::uint32_t>(next_ / triangles_); }
+  std::uint32_t triangle() const { return static_cast<std::uint32_t>(next_ % triangles_); }
+
+ private:
+  std::uint64_t triangles_, end_, next_ = 0;
 };
 
 }  // namespace phongpipe

@@ -14,18 +14,14 @@ struct TracedSpan {
 };
 
 struct ModelFrame {
-  std::vector<ShadedPixel> stream;   // every shaded pixel, in order, before the depth test
-  std::vector<TracedSpan> spans;     // where they come from
-  Framebuffer framebuffer;           // values are places in the stream
-  std::size_t triangles_set_up = 0;  // those that cover a pixel
+  std::vector<ShadedPixel> stream;    // every shaded pixel, in order, before the depth test
+  std::vector<TracedSpan> spans;      // where they come from
+  Framebuffer framebuffer;            // with owners
+  std::size_t triangles_set_up = 0;   // that cover a pixel, once for every light that reaches them
+  std::size_t triangles_dropped = 0;  // of them, found to add nothing to their pixels
   std::size_t coefficient_overflows =
       0;  // triangles with a coefficient or value beyond its register
 
-  // Of a pixel of the image, channel 0 in the low byte.
-  std::uint32_t color(std::size_t index) const {
-    return framebuffer.covered(index) ? stream[framebuffer.value(index)].color
-                                      : framebuffer.background();
-  }
   std::vector<std::uint32_t> colors() const;
 };
 

@@ -1,6 +1,7 @@
 #include "model/fixed/pixel_datapath.h"
 
 #include "model/fixed/color_sum.h"
+#include "model/fixed/depth_cue.h"
 #include "model/fixed/pixel_lanes.h"
 
 #if defined(__x86_64__)
@@ -24,51 +25,53 @@ struct Avx2Gather {
   }
 };
 
-template <typename Word, int kChannels, GateSource kGate>
+template <typename Word, int kChannels, bool kSpecular, GateSource kGate>
 __attribute__((target("avx2"))) void shade_avx2(const LaneInputs& inputs, const Span& span,
                                                 std::uint32_t* colors) {
-  shade_lanes<Word, 8, kChannels, kGate, Avx2Gather>(inputs, span, colors);
+  shade_lanes<Word, 8, kChannels, kSpecular, kGate, Avx2Gather>(inputs, span, colors);
 }
 #endif
 
 // Four lanes of 32 bits are what a register of plain x86-64 holds.
-template <typename Word, int kChannels, GateSource kGate>
+template <typename Word, int kChannels, bool kSpecular, GateSource kGate>
 void shade_portable(const LaneInputs& inputs, const Span& span, std::uint32_t* colors) {
-  shade_lanes<Word, 4, kChannels, kGate, LoopGather>(inputs, span, colors);
+  shade_lanes<Word, 4, kChannels, kSpecular, kGate, LoopGather>(inputs, span, colors);
 }
 
 using ShadeFunction = void (*)(const LaneInputs&, const Span&, std::uint32_t*);
 
-template <typename Word, int kChannels, GateSource kGate>
+template <typename Word, int kChannels, bool kSpecular, GateSource kGate>
 ShadeFunction select_instructions(Evaluation evaluation) {
 #if defined(__x86_64__)
-  if (evaluation == Evaluation::avx2) return shade_avx2<Word, kChannels, kGate>;
+  if (evaluation == Evaluation::avx2) return shade_avx2<Word, kChannels, kSpecular, kGate>;
 #endif
-  return shade_portable<Word, kChannels, kGate>;
+  return shade_portable<Word, kChannels, kSpecular, kGate>;
 }
 
 template <typename Word, int kChannels>
-ShadeFunction select_gate(GateSource gate, Evaluation evaluation) {
+ShadeFunction select_highlight(bool specular, GateSource gate, Evaluation evaluation) {
+  if (!specular) return select_instructions<Word, kChannels, false, GateSource::off>(evaluation);
   switch (gate) {
     case GateSource::off:
-      return select_instructions<Word, kChannels, GateSource::off>(evaluation);
+      return select_instructions<Word, kChannels, true, GateSource::off>(evaluation);
     case GateSource::series:
-      return select_instructions<Word, kChannels, GateSource::series>(evaluation);
+      return select_instructions<Word, kChannels, true, GateSource::series>(evaluation);
     case GateSource::diffuse:
       break;
   }
-  return select_instructions<Word, kChannels, GateSource::diffuse>(evaluation);
+  return select_instructions<Word, kChannels, true, GateSource::diffuse>(evaluation);
 }
 
-ShadeFunction select_shade(const DatapathConfiguration& configuration, Evaluation evaluation) {
+ShadeFunction select_shade(const DatapathConfiguration& configuration, bool specular,
+                           Evaluation evaluation) {
   const bool narrow = configuration.diffuse_width() <= 32 && configuration.specular_width() <= 32;
   const GateSource gate = configuration.gate;
   if (configuration.channels == 1) {
-    return narrow ? select_gate<std::int32_t, 1>(gate, evaluation)
-                  : select_gate<std::int64_t, 1>(gate, evaluation);
+    return narrow ? select_highlight<std::int32_t, 1>(specular, gate, evaluation)
+                  : select_highlight<std::int64_t, 1>(specular, gate, evaluation);
   }
-  return narrow ? select_gate<std::int32_t, 3>(gate, evaluation)
-                : select_gate<std::int64_t, 3>(gate, evaluation);
+  return narrow ? select_highlight<std::int32_t, 3>(specular, gate, evaluation)
+                : select_highlight<std::int64_t, 3>(specular, gate, evaluation);
 }
 
 }  // namespace
@@ -80,17 +83,19 @@ Evaluation best_evaluation() {
   return Evaluation::portable;
 }
 
-PixelDatapath::PixelDatapath(const DatapathConfiguration& configuration, Evaluation evaluation)
+PixelDatapath::PixelDatapath(const DatapathConfiguration& configuration, Evaluation evaluation,
+                             const OutputColor& cue_color)
     : configuration_(configuration),
       evaluation_(evaluation),
-      shade_lanes_(select_shade(configuration, evaluation)) {
+      cue_color_(cue_color),
+      shade_with_highlight_(select_shade(configuration_, configuration_.specular, evaluation)),
+      shade_without_(select_shade(configuration_, false, evaluation)) {
   configuration_.check();
 }
 
-void PixelDatapath::load_material(const MaterialSetup& material) {
-  level_ = material.level;
-  for (std::size_t c = 0; c < material.roms.size(); ++c) {
-    aligned_rom_[c] = material.roms[c].words();
+void PixelDatapath::load_table(const HighlightTable& table) {
+  for (std::size_t c = 0; c < table.roms.size(); ++c) {
+    aligned_rom_[c] = table.roms[c].words();
     for (std::int32_t& word : aligned_rom_[c]) word = aligned_word(configuration_, word);
     rom_[c] = aligned_rom_[c].data();
   }
@@ -99,39 +104,50 @@ void PixelDatapath::load_material(const MaterialSetup& material) {
 void PixelDatapath::shade(const Span& span, std::uint32_t* colors) const {
   if (evaluation_ == Evaluation::stepping) {
     shade_stepping(span, colors);
-  } else {
-    shade_lanes_({&configuration_, level_.data(), rom_.data()}, span, colors);
+    return;
   }
+  const auto shade_lanes = span.highlight ? shade_with_highlight_ : shade_without_;
+  shade_lanes({&configuration_, cue_color_.data(), rom_.data()}, span, colors);
 }
 
 void PixelDatapath::shade_stepping(const Span& span, std::uint32_t* colors) const {
   const auto channels = static_cast<std::size_t>(configuration_.channels);
+  const bool specular_on = configuration_.specular && span.highlight;
   const int diffuse_width = configuration_.diffuse_width();
   std::array<ForwardDifferencer, 3> diffuse = {ForwardDifferencer(diffuse_width),
                                                ForwardDifferencer(diffuse_width),
                                                ForwardDifferencer(diffuse_width)};
   ForwardDifferencer specular(configuration_.specular_width());
   ForwardDifferencer gate(diffuse_width);
+  ForwardDifferencer cue(kCueWidth);
   for (std::size_t c = 0; c < channels; ++c) diffuse[c].load(span.diffuse[c]);
   specular.load(span.specular);
   gate.load(span.gate);
+  cue.load(span.cue);
 
   for (int i = 0; i < span.row.length; ++i) {
     bool open = configuration_.gate == GateSource::off ||
                 (configuration_.gate == GateSource::series && is_lit(gate.v(), 0));
     if (configuration_.gate == GateSource::diffuse) {
-      for (std::size_t c = 0; c < channels; ++c) open = open || is_lit(diffuse[c].v(), level_[c]);
+      for (std::size_t c = 0; c < channels; ++c) {
+        open = open || is_lit(diffuse[c].v(), span.level[c]);
+      }
     }
     const int address = ExponentRom::address(configuration_, specular.v());
     std::uint32_t color = 0;
     for (std::size_t c = 0; c < channels; ++c) {
-      const std::int32_t clamped = clamped_diffuse(configuration_, diffuse[c].v(), level_[c]);
-      const std::int32_t word = open ? rom_[c][address] : 0;
-      color |= std::uint32_t{color_sum(configuration_, clamped, word)} << (c * kOutputBits);
+      const std::int32_t clamped = clamped_diffuse(configuration_, diffuse[c].v(), span.level[c]);
+      const std::int32_t word = specular_on && open ? rom_[c][address] : 0;
+      const std::uint8_t output =
+          configuration_.depth_cue ? depth_cue(light_sum(configuration_, clamped, word),
+                                               span.base ? cue_color_[c] : 0, cue_factor(cue.v()))
+                                   : color_sum(configuration_, clamped, word);
+      color |= std::uint32_t{output} << (c * kOutputBits);
       diffuse[c].step();
     }
     specular.step();
     gate.step();
+    cue.step();
     colors[i] = color;
   }
 }

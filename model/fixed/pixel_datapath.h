@@ -22,11 +22,14 @@ struct LaneInputs;
 
 class PixelDatapath {
  public:
+  // `cue_color`: what depth cueing fades to. Throws InputError where the configuration is out of
+  // range.
   explicit PixelDatapath(const DatapathConfiguration& configuration,
-                         Evaluation evaluation = best_evaluation());
+                         Evaluation evaluation = best_evaluation(),
+                         const OutputColor& cue_color = {});
 
-  // Loads ROMs and levels; needed before the first span.
-  void load_material(const MaterialSetup& material);
+  // Needed before the first span that has a highlight.
+  void load_table(const HighlightTable& table);
 
   // Colours of the span's pixels, channel 0 in the low byte. `colors` must have room for the length
   // rounded up to a multiple of kLanes; what lies behind the length is overwritten with rubbish.
@@ -37,12 +40,13 @@ class PixelDatapath {
   void shade(const Span& span, std::uint32_t* colors) const;
 
  private:
+  using ShadeFunction = void (*)(const LaneInputs&, const Span&, std::uint32_t*);
   void shade_stepping(const Span& span, std::uint32_t* colors) const;
 
   DatapathConfiguration configuration_;
   Evaluation evaluation_;
-  void (*shade_lanes_)(const LaneInputs&, const Span&, std::uint32_t*);
-  std::array<std::int64_t, 3> level_ = {};
+  OutputColor cue_color_;
+  ShadeFunction shade_with_highlight_, shade_without_;
   // Words aligned to the fraction of color_sum, as it adds them.
   std::array<std::vector<std::int32_t>, 3> aligned_rom_;
   std::array<const std::int32_t*, 3> rom_ = {};

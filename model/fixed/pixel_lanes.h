@@ -18,7 +18,7 @@ using Lanes __attribute__((vector_size(kLanes * sizeof(Word)))) = Word;
 template <typename Word, int kLanes>
 struct LaneSeries {
   using Vector = Lanes<Word, kLanes>;
-  Vector v, d1, d2;
+  Vector v = {}, d1 = {}, d2 = {};
 
   // v(i) = v + i d1 + i(i−1)/2 d2; v(i + k) − v(i) = k d1 + (k i + k(k−1)/2) d2.
   inline __attribute__((always_inline)) void load(const SeriesStart& start, int width) {
@@ -52,12 +52,13 @@ struct LaneSeries {
 
 struct LaneInputs {
   const DatapathConfiguration* configuration;
-  const std::int64_t* level;               // of each channel
+  const std::uint8_t* cue_color;           // of each channel
   const std::int32_t* const* aligned_rom;  // of each channel
 };
 
-// Gather: lanes of words[address].
-template <typename Word, int kLanes, int kChannels, GateSource kGate, typename Gather>
+// Gather: lanes of words[address]. kSpecular: whether the span has a highlight.
+template <typename Word, int kLanes, int kChannels, bool kSpecular, GateSource kGate,
+          typename Gather>
 inline __attribute__((always_inline)) void shade_lanes(const LaneInputs& inputs, const Span& span,
                                                        std::uint32_t* colors) {
   using Vector = Lanes<Word, kLanes>;
@@ -68,42 +69,61 @@ inline __attribute__((always_inline)) void shade_lanes(const LaneInputs& inputs,
   const int diffuse_shift = kBits - (1 + kGuardBits + kOutputBits) - sum_fraction;
   const int address_shift = kBits - (1 + kGuardBits + configuration.rom_address_bits);
   const Word last_address = static_cast<Word>(configuration.rom_words() - 1);
+  const bool depth_cue = configuration.depth_cue;
 
-  LaneSeries<Word, kLanes> specular, gate, diffuse[kChannels];
+  LaneSeries<Word, kLanes> specular, gate, cue, diffuse[kChannels];
   Word level[kChannels];
-  specular.load(span.specular, configuration.specular_width());
-  if constexpr (kGate == GateSource::series) gate.load(span.gate, diffuse_width);
+  if constexpr (kSpecular) specular.load(span.specular, configuration.specular_width());
+  if constexpr (kSpecular && kGate == GateSource::series) gate.load(span.gate, diffuse_width);
+  if (depth_cue) cue.load(span.cue, kCueWidth);
   for (std::size_t c = 0; c < kChannels; ++c) {
     diffuse[c].load(span.diffuse[c], diffuse_width);
-    level[c] = static_cast<Word>(static_cast<std::make_unsigned_t<Word>>(inputs.level[c])
+    level[c] = static_cast<Word>(static_cast<std::make_unsigned_t<Word>>(span.level[c])
                                  << (kBits - diffuse_width));
   }
 
   for (int i = 0; i < span.row.length; i += kLanes) {
-    Vector address = specular.v >> address_shift;
-    address = address < 0 ? Vector{} : address;
-    address = address > last_address ? Vector{} + last_address : address;
-    specular.advance();
-
+    Vector address = {};
     Vector open = Vector{} - 1;  // all ones: the highlight counts
-    if constexpr (kGate == GateSource::series) {
-      open = gate.v > 0;
-      gate.advance();
+    if constexpr (kSpecular) {
+      address = specular.v >> address_shift;
+      address = address < 0 ? Vector{} : address;
+      address = address > last_address ? Vector{} + last_address : address;
+      specular.advance();
+      if constexpr (kGate == GateSource::series) {
+        open = gate.v > 0;
+        gate.advance();
+      }
+      if constexpr (kGate == GateSource::diffuse) open = Vector{};
     }
-    if constexpr (kGate == GateSource::diffuse) open = Vector{};
     Vector clamped[kChannels];
     for (int c = 0; c < kChannels; ++c) {
       const Vector lit = diffuse[c].v > level[c];
-      if constexpr (kGate == GateSource::diffuse) open |= lit;
+      if constexpr (kSpecular && kGate == GateSource::diffuse) open |= lit;
       clamped[c] = (lit ? diffuse[c].v : Vector{} + level[c]) >> diffuse_shift;
       diffuse[c].advance();
+    }
+    Vector factor = {};
+    if (depth_cue) {
+      factor = cue.v >> (kBits - 1 - kCueIntegerBits - kCueFactorBits);
+      factor = factor < 0 ? Vector{} : factor;
+      factor = factor > (1 << kCueFactorBits) ? Vector{} + (1 << kCueFactorBits) : factor;
+      cue.advance();
     }
 
     Vector color = {};
     for (int c = 0; c < kChannels; ++c) {
-      Vector word;
-      Gather::read(inputs.aligned_rom[c], address, word);
-      Vector sum = (clamped[c] + (word & open)) >> sum_fraction;
+      Vector sum = clamped[c];
+      if constexpr (kSpecular) {
+        Vector word;
+        Gather::read(inputs.aligned_rom[c], address, word);
+        sum += word & open;
+      }
+      sum = sum >> sum_fraction;
+      if (depth_cue) {
+        const Word own = span.base ? inputs.cue_color[c] : 0;
+        sum = own + (((sum - own) * factor + (1 << (kCueFactorBits - 1))) >> kCueFactorBits);
+      }
       sum = sum > kOutputMax ? Vector{} + kOutputMax : sum;
       color |= sum << (c * kOutputBits);
     }

@@ -8,17 +8,19 @@ namespace phongpipe {
 
 // Coefficients about the centre of pixel (x, y). Q-formats: diffuse and gate have
 // diffuse_fraction_bits below one output LSB, specular specular_fraction_bits below one ROM
-// address, each kSetupExtraBits more with Anchor::span; depth kDepthFraction. The level (ambient
-// and the rounding half) is folded into the T0 of diffuse. Rounding: to nearest. Overflow of 63
-// bits is reported.
+// address, each kSetupExtraBits more with Anchor::span; depth kDepthFraction, own_share
+// kCueFraction and as many extra bits. The level (ambient and the rounding half) is folded into the
+// T0 of diffuse. Rounding: to nearest. Overflow of 63 bits is reported.
 struct TriangleSetup {
   int x = 0, y = 0;  // the expansion point's pixel
   std::uint32_t triangle = 0;
-  std::uint32_t material = 0;
+  std::uint32_t pass = 0;
+  const MaterialSetup* material = nullptr;
+  SeriesPlan plan;  // what was set up; what was not is 0, the diffuse T0 the level
   std::array<FixedQuadratic, 3> diffuse;
   FixedQuadratic specular;
   FixedQuadratic gate;
-  std::int64_t depth = 0, depth_x = 0, depth_y = 0;
+  FixedLinear depth, own_share;
   bool overflow = false;
 };
 
@@ -27,13 +29,26 @@ class SetupEngine {
   SetupEngine(const FrameSetup& frame, const Geometry& geometry);
 
   // (x, y): the pixel to expand about; it should be a covered one near the centroid, so that the
-  // series is never evaluated outside the triangle's own normals.
-  TriangleSetup set_up(std::uint32_t triangle, int x, int y) const;
+  // series is never evaluated outside the triangle's own normals. `longest_row` in pixels.
+  //
+  // What provably changes no pixel is left out of the plan: a highlight whose words are all 0,
+  // light on triangles that face away from it, and all but T0 where normals do not turn.
+  TriangleSetup set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
+                       int longest_row) const;
 
   // The same before rounding, for the split of errors.
-  TriangleCoefficients<double> coefficients(std::uint32_t triangle, int x, int y) const;
+  TriangleCoefficients<double> coefficients(std::uint32_t triangle, std::uint32_t pass, int x,
+                                            int y) const;
 
  private:
+  TriangleInput<double> input(std::uint32_t triangle, std::uint32_t pass, int x, int y) const;
+  SeriesPlan reduced_plan(const MaterialSetup& material, const TriangleInput<double>& vertices,
+                          int longest_row) const;
+  // Whether coefficients that are T0 alone are, once rounded, those of the whole computation, which
+  // adds the noise of double precision.
+  bool rounds_alike(const SeriesPlan& plan, const MaterialSetup& material,
+                    const TriangleCoefficients<double>& flat) const;
+
   const FrameSetup* frame_;
   const Geometry* geometry_;
 };

@@ -21,7 +21,8 @@ SpanWalker::SpanWalker(const FrameSetup& frame)
     : configuration_(frame.configuration),
       dropped_bits_(setup_fraction_bits(frame.configuration, 0)),
       diffuse_limit_(std::ldexp(1.0, configuration_.diffuse_width() - 1) - 1),
-      specular_limit_(std::ldexp(1.0, configuration_.specular_width() - 1) - 1) {}
+      specular_limit_(std::ldexp(1.0, configuration_.specular_width() - 1) - 1),
+      cue_limit_(std::ldexp(1.0, kCueWidth - 1) - 1) {}
 
 SeriesStart SpanWalker::start_series(const FixedQuadratic& t, int x, int y) const {
   return {round_off(t.value(x, y), dropped_bits_), round_off(t.difference(x, y), dropped_bits_),
@@ -46,28 +47,46 @@ Span SpanWalker::start(const TriangleSetup& setup, const RowSpan& row) const {
   Span span;
   span.row = row;
   span.triangle = setup.triangle;
-  span.material = setup.material;
+  span.base = setup.pass == 0;
+  span.step_diffuse = (setup.plan.diffuse || setup.plan.gate_series) && !setup.plan.flat_light;
+  span.step_specular = setup.plan.specular && !setup.plan.flat_highlight;
+  span.highlight = setup.plan.specular;
+  span.table = setup.material->table;
+  span.level = setup.material->level;
+  if (setup.plan.depth) {
+    span.depth = setup.depth.value(x, y);
+    span.depth_step = setup.depth.a;
+  }
+  if (setup.plan.depth_cue) {
+    span.cue = {round_off(setup.own_share.value(x, y), dropped_bits_),
+                round_off(setup.own_share.a, dropped_bits_), 0};
+  }
+  if (!row.lit) {
+    span.step_diffuse = span.step_specular = span.highlight = false;
+    for (std::size_t c = 0; c < span.level.size(); ++c) span.diffuse[c].v = span.level[c];
+    return span;
+  }
   for (std::size_t c = 0; c < static_cast<std::size_t>(configuration_.channels); ++c) {
     span.diffuse[c] = start_series(setup.diffuse[c], x, y);
   }
-  if (configuration_.gate == GateSource::series) span.gate = start_series(setup.gate, x, y);
-  span.specular = start_series(setup.specular, x, y);
-  span.depth =
-      wrap_add(setup.depth, wrap_add(wrap_mul(setup.depth_x, x), wrap_mul(setup.depth_y, y)));
-  span.depth_step = setup.depth_x;
+  if (setup.plan.gate_series) span.gate = start_series(setup.gate, x, y);
+  if (setup.plan.specular) span.specular = start_series(setup.specular, x, y);
   return span;
 }
 
 bool SpanWalker::fits(const TriangleSetup& setup, const RowSpan& row) const {
   const int x = row.x - setup.x, y = row.y - setup.y;
+  const FixedLinear& share = setup.own_share;
+  if (setup.plan.depth_cue &&
+      !series_fits({share.c, share.b, share.a, 0, 0, 0}, x, y, row.length, cue_limit_)) {
+    return false;
+  }
+  if (!row.lit) return true;
   for (std::size_t c = 0; c < static_cast<std::size_t>(configuration_.channels); ++c) {
     if (!series_fits(setup.diffuse[c], x, y, row.length, diffuse_limit_)) return false;
   }
-  if (configuration_.gate == GateSource::series &&
-      !series_fits(setup.gate, x, y, row.length, diffuse_limit_)) {
-    return false;
-  }
-  return series_fits(setup.specular, x, y, row.length, specular_limit_);
+  return (!setup.plan.gate_series || series_fits(setup.gate, x, y, row.length, diffuse_limit_)) &&
+         (!setup.plan.specular || series_fits(setup.specular, x, y, row.length, specular_limit_));
 }
 
 }  // namespace phongpipe

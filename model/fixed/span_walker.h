@@ -23,8 +23,8 @@ class SpanWalker {
   bool series_fits(const FixedQuadratic& t, int x, int y, int length, double limit) const;
 
   DatapathConfiguration configuration_;
-  int dropped_bits_;                       // between setup and datapath
-  double diffuse_limit_, specular_limit_;  // largest values of the registers
+  int dropped_bits_;                                   // between setup and datapath
+  double diffuse_limit_, specular_limit_, cue_limit_;  // largest values of the registers
 };
 
 }  // namespace phongpipe

@@ -205,4 +205,9 @@ Vec3 light_vector(const Light& light, const ScreenVertex& vertex) {
                                               : Vec3(light.position - vertex.position);
 }
 
+double view_distance(const Scene& scene, const ScreenVertex& vertex) {
+  if (is_screen_space(scene)) return vertex.z;
+  return (scene.camera.eye - vertex.position).dot(infinite_eye(scene));
+}
+
 }  // namespace phongpipe

@@ -70,6 +70,10 @@ Vec3 infinite_eye(const Scene& scene);
 // for directional ones.
 Vec3 light_vector(const Light& light, const ScreenVertex& vertex);
 
+// How far the surface is from the eye along the view, as depth cueing sees it: world units, or z in
+// a scene of screen-space triangles.
+double view_distance(const Scene& scene, const ScreenVertex& vertex);
+
 // The columns of DESIGN: x0,y0,z0,nx0,…,nz2, ex0,…,ez2, then l0x0,… per light, then material.
 // Numbers are printed so that reading them back gives the same doubles.
 void dump_triangles(std::ostream& out, const Scene& scene, const Geometry& geometry);

@@ -53,6 +53,13 @@ struct Light {
   double spot_cutoff_degrees = 90;
 };
 
+// Whether it fades with distance, and within its cone.
+bool is_attenuated(const Light& light);
+bool has_spot_factor(const Light& light);
+
+// 1/(c + l d + q d²); 1 for a directional light.
+double distance_attenuation(const Light& light, double distance);
+
 struct Material {
   std::string name = "default";
   Color ambient = Color::Constant(0.1);

@@ -10,18 +10,18 @@ thread_local Recording* current = nullptr;
 }  // namespace
 
 OperationCounts operator+(const OperationCounts& a, const OperationCounts& b) {
-  return {a.add + b.add,       a.multiply + b.multiply, a.rsqrt + b.rsqrt,
-          a.divide + b.divide, a.sqrt + b.sqrt,         a.read + b.read};
+  return {a.add + b.add,   a.multiply + b.multiply, a.rsqrt + b.rsqrt, a.divide + b.divide,
+          a.sqrt + b.sqrt, a.read + b.read,         a.power + b.power};
 }
 
 OperationCounts operator-(const OperationCounts& a, const OperationCounts& b) {
-  return {a.add - b.add,       a.multiply - b.multiply, a.rsqrt - b.rsqrt,
-          a.divide - b.divide, a.sqrt - b.sqrt,         a.read - b.read};
+  return {a.add - b.add,   a.multiply - b.multiply, a.rsqrt - b.rsqrt, a.divide - b.divide,
+          a.sqrt - b.sqrt, a.read - b.read,         a.power - b.power};
 }
 
 bool operator==(const OperationCounts& a, const OperationCounts& b) {
   return a.add == b.add && a.multiply == b.multiply && a.rsqrt == b.rsqrt && a.divide == b.divide &&
-         a.sqrt == b.sqrt && a.read == b.read;
+         a.sqrt == b.sqrt && a.read == b.read && a.power == b.power;
 }
 
 OperationCounts Dataflow::counts() const {
@@ -36,6 +36,9 @@ OperationCounts Dataflow::counts() const {
         break;
       case Operation::rsqrt:
         ++counts.rsqrt;
+        break;
+      case Operation::power:
+        ++counts.power;
         break;
       case Operation::divide:
         ++counts.divide;

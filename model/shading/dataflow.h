@@ -9,12 +9,14 @@
 
 namespace phongpipe {
 
-// The first three are the setup engine's; software shaders also divide, take roots and read tables.
-enum class Operation { add, multiply, rsqrt, divide, sqrt, read };
+// The first four are the setup engine's; software shaders also divide, take roots and read tables.
+// A power is one of any constant exponent: logarithm, product and exponential, by tables.
+enum class Operation { add, multiply, rsqrt, power, divide, sqrt, read };
 
 struct OperationCounts {
   std::size_t add = 0, multiply = 0, rsqrt = 0;
   std::size_t divide = 0, sqrt = 0, read = 0;  // read: one word of a table in memory
+  std::size_t power = 0;
 };
 OperationCounts operator+(const OperationCounts& a, const OperationCounts& b);
 OperationCounts operator-(const OperationCounts& a, const OperationCounts& b);
@@ -55,6 +57,9 @@ class Recorded {
   Recorded& operator*=(const Recorded& b) { return *this = *this * b; }
   friend Recorded rsqrt(const Recorded& x) {
     return Recorded(Operation::rsqrt, x.node_, Dataflow::kInput);
+  }
+  friend Recorded power(const Recorded& x, const Recorded& p) {
+    return Recorded(Operation::power, x.node_, p.node_);
   }
   friend Recorded operator/(const Recorded& a, const Recorded& b) {
     return Recorded(Operation::divide, a.node_, b.node_);

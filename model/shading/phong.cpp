@@ -17,13 +17,10 @@ Vec3 unit_or_zero(const Vec3& v) {
 
 // 1/(c + l d + q d²), times the spot's cone.
 double falloff(const Light& light, const Vec3& unit_to_light, double distance) {
-  if (light.type == LightType::directional) return 1;
-  const auto& [constant, linear, quadratic] = light.attenuation;
-  const double attenuation = 1 / (constant + distance * (linear + distance * quadratic));
-  if (light.type == LightType::point) return attenuation;
-  const double cosine = std::max(0.0, -unit_to_light.dot(light.direction));
-  if (cosine < std::cos(light.spot_cutoff_degrees * kDegrees)) return 0;
-  return attenuation * std::pow(cosine, light.spot_exponent);
+  const double attenuation = distance_attenuation(light, distance);
+  if (light.type != LightType::spot) return attenuation;
+  if (!in_cone(light, unit_to_light)) return 0;
+  return attenuation * std::pow(-unit_to_light.dot(light.direction), light.spot_exponent);
 }
 
 Vec3 at(const Linear<Vec3>& q, double x, double y) {
@@ -31,6 +28,12 @@ Vec3 at(const Linear<Vec3>& q, double x, double y) {
 }
 
 }  // namespace
+
+bool in_cone(const Light& light, const Vec3& unit_to_light) {
+  if (light.type != LightType::spot) return true;
+  const double cosine = std::max(0.0, -unit_to_light.dot(light.direction));
+  return cosine >= std::cos(light.spot_cutoff_degrees * kDegrees);
+}
 
 Illumination illuminate(const Scene& scene, const Light& light, const Vec3& eye,
                         const Vec3& to_light) {
@@ -73,6 +76,17 @@ PhongTriangle::PhongTriangle(const Scene& scene, const Material& material,
     lights_vary_ = lights_vary_ || light.type != LightType::directional;
   }
   if (!lights_vary_) illuminate_at(0, 0, lights_);
+  if (scene.depth_cue) {
+    distance_ = interpolate(view_distance(scene, v[0]), view_distance(scene, v[1]),
+                            view_distance(scene, v[2]));
+  }
+}
+
+Color PhongTriangle::cue(const Color& color, double x, double y) const {
+  const DepthCue& cue = *scene_->depth_cue;
+  const double distance = distance_.a * x + distance_.b * y + distance_.c;
+  const double own = std::clamp((cue.far - distance) / (cue.far - cue.near), 0.0, 1.0);
+  return cue.color + (color - cue.color) * own;
 }
 
 void PhongTriangle::illuminate_at(double x, double y, std::vector<Illumination>& lights) const {
@@ -88,8 +102,9 @@ void PhongTriangle::shade(int x, int y, int length, Color* colors) const {
   for (int i = 0; i < length; ++i) {
     const double px = x + i + 0.5, py = y + 0.5;
     if (lights_vary_) illuminate_at(px, py, varying);
-    const Color color =
+    Color color =
         reflect(*scene_, *material_, at(normal_, px, py), lights_vary_ ? varying : lights_);
+    if (scene_->depth_cue) color = cue(color, px, py);
     colors[i] = color.max(0).min(1) * 255;
   }
 }

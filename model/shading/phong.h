@@ -16,6 +16,9 @@ struct Illumination {
   Color color = Color::Zero();  // after attenuation and spot factor
 };
 
+// Whether the light's cone reaches a point; `unit_to_light`: surface → light. Only spots have one.
+bool in_cone(const Light& light, const Vec3& unit_to_light);
+
 // `eye` is unit, `to_light` of true length.
 Illumination illuminate(const Scene& scene, const Light& light, const Vec3& eye,
                         const Vec3& to_light);
@@ -32,10 +35,14 @@ class PhongTriangle {
  public:
   PhongTriangle(const Scene& scene, const Material& material, const ScreenTriangle& triangle);
 
+  // With depth cueing: the light moved towards its colour by the distance along the view, which is
+  // interpolated as the vectors are; what is overexposed fades from its unclamped value.
+  //
   // Colours of `length` pixels from pixel (x, y) rightwards, in output LSB (0 to 255), not rounded.
   void shade(int x, int y, int length, Color* colors) const;
 
  private:
+  Color cue(const Color& color, double x, double y) const;
   void illuminate_at(double x, double y, std::vector<Illumination>& lights) const;
 
   const Scene* scene_;
@@ -43,6 +50,7 @@ class PhongTriangle {
   Linear<Vec3> normal_;
   Linear<Vec3> eye_;
   std::vector<Linear<Vec3>> to_light_;
+  Linear<double> distance_;           // along the view, where there is depth cueing
   bool lights_vary_;                  // from pixel to pixel
   std::vector<Illumination> lights_;  // of every pixel, where they do not vary
 };

@@ -12,6 +12,10 @@ namespace phongpipe {
 inline double rsqrt(double x) {
   return 1 / std::sqrt(x);
 }
+// x^p, 0 below 0.
+inline double power(double x, double p) {
+  return std::pow(x > 0 ? x : 0, p);
+}
 inline double half(double x) {
   return 0.5 * x;
 }

@@ -18,59 +18,80 @@ struct Quadratic {
   Quadratic scaled(const T& k) const { return {t0 * k, t1 * k, t2 * k, t3 * k, t4 * k, t5 * k}; }
 };
 
+// V = A x + B y + C and, divided by |C|², what its length depends on.
+template <typename T>
+struct ScaledVector {
+  Linear<Vector3<T>> vector;
+  T squared_length, root;  // |C|², 1/|C|
+  T g, h;                  // A·C/|C|², B·C/|C|²
+  T aa, ab, bb;            // A·A/|C|², A·B/|C|², B·B/|C|²
+
+  explicit ScaledVector(const Linear<Vector3<T>>& v) : ScaledVector(v, v.c.dot(v.c)) {}
+  // For a V that may vanish: |C|² is given, kept away from 0.
+  ScaledVector(const Linear<Vector3<T>>& v, const T& positive)
+      : vector(v), squared_length(positive), root(rsqrt(positive)) {
+    const T inverse = root * root;
+    g = v.a.dot(v.c) * inverse;
+    h = v.b.dot(v.c) * inverse;
+    aa = v.a.dot(v.a) * inverse;
+    ab = v.a.dot(v.b) * inverse;
+    bb = v.b.dot(v.b) * inverse;
+  }
+};
+
 // What every series over the same normals shares: N = A x + B y + C and its length to second order.
 template <typename T>
 class NormalExpansion {
  public:
-  explicit NormalExpansion(const Linear<Vector3<T>>& normal) : normal_(normal) {
-    root_ = rsqrt(normal.c.dot(normal.c));
-    const T inverse = root_ * root_;
-    g_ = normal.a.dot(normal.c) * inverse;
-    h_ = normal.b.dot(normal.c) * inverse;
-    q5_ = half(g_ * g_ - normal.a.dot(normal.a) * inverse);
-    q4_ = g_ * h_ - normal.a.dot(normal.b) * inverse;
-    q3_ = half(h_ * h_ - normal.b.dot(normal.b) * inverse);
+  explicit NormalExpansion(const Linear<Vector3<T>>& normal)
+      : NormalExpansion(ScaledVector<T>(normal)) {}
+  explicit NormalExpansion(const ScaledVector<T>& normal)
+      : n_(normal),
+        q5_(half(n_.g * n_.g - n_.aa)),
+        q4_(n_.g * n_.h - n_.ab),
+        q3_(half(n_.h * n_.h - n_.bb)) {}
+
+  // |N|
+  Quadratic<T> length() const {
+    const Quadratic<T> t = {T(1), n_.h, n_.g, -q3_, -q4_, -q5_};
+    return t.scaled(n_.squared_length * n_.root);
   }
 
-  // M constant and of unit length: a light or a halfway vector at infinity.
+  // N·M / |N|, M constant and of unit length: a light or a halfway vector at infinity.
   Quadratic<T> infinite(const Vector3<T>& m) const {
     Quadratic<T> t;
-    t.t0 = normal_.c.dot(m) * root_;
-    t.t2 = normal_.a.dot(m) * root_ - t.t0 * g_;
-    t.t1 = normal_.b.dot(m) * root_ - t.t0 * h_;
-    t.t5 = t.t0 * q5_ - g_ * t.t2;
-    t.t4 = t.t0 * q4_ - g_ * t.t1 - h_ * t.t2;
-    t.t3 = t.t0 * q3_ - h_ * t.t1;
+    t.t0 = n_.vector.c.dot(m) * n_.root;
+    t.t2 = n_.vector.a.dot(m) * n_.root - t.t0 * n_.g;
+    t.t1 = n_.vector.b.dot(m) * n_.root - t.t0 * n_.h;
+    t.t5 = t.t0 * q5_ - n_.g * t.t2;
+    t.t4 = t.t0 * q4_ - n_.g * t.t1 - n_.h * t.t2;
+    t.t3 = t.t0 * q3_ - n_.h * t.t1;
     return t;
   }
 
-  // M = D x + E y + F: the halfway vector of an eye at a finite distance.
-  Quadratic<T> finite(const Linear<Vector3<T>>& m) const {
-    const T root_m = rsqrt(m.c.dot(m.c));
-    const T inverse_m = root_m * root_m;
-    const T root = root_ * root_m;
-    const T p = m.a.dot(m.c) * inverse_m;  // J, K of the normal are g_, h_; P, Q of M
-    const T q = m.b.dot(m.c) * inverse_m;
-    const T u = g_ + p, w = h_ + q;
-    const T jp = g_ - p, kq = h_ - q;
+  // N·M / (|N||M|), M = D x + E y + F: the halfway vector of an eye at a finite distance.
+  Quadratic<T> finite(const Linear<Vector3<T>>& m) const { return finite(ScaledVector<T>(m)); }
+  Quadratic<T> finite(const ScaledVector<T>& m) const {
+    const Linear<Vector3<T>>&n = n_.vector, &v = m.vector;
+    const T root = n_.root * m.root;
+    const T u = n_.g + m.g, w = n_.h + m.h;  // J, K of the normal are g, h; P, Q of M
+    const T jp = n_.g - m.g, kq = n_.h - m.h;
     // q5_ holds (J² − |A|²)/2; the series wants ((J − P)² − |A|² − |D|²)/2, and so on.
-    const T r5 = q5_ + half(jp * jp - g_ * g_ - m.a.dot(m.a) * inverse_m);
-    const T r4 = q4_ + (jp * kq - g_ * h_ - m.a.dot(m.b) * inverse_m);
-    const T r3 = q3_ + half(kq * kq - h_ * h_ - m.b.dot(m.b) * inverse_m);
+    const T r5 = q5_ + half(jp * jp - n_.g * n_.g - m.aa);
+    const T r4 = q4_ + (jp * kq - n_.g * n_.h - m.ab);
+    const T r3 = q3_ + half(kq * kq - n_.h * n_.h - m.bb);
     Quadratic<T> t;
-    t.t0 = normal_.c.dot(m.c) * root;
-    t.t2 = (normal_.a.dot(m.c) + normal_.c.dot(m.a)) * root - t.t0 * u;
-    t.t1 = (normal_.b.dot(m.c) + normal_.c.dot(m.b)) * root - t.t0 * w;
-    t.t5 = normal_.a.dot(m.a) * root - u * t.t2 + t.t0 * r5;
-    t.t3 = normal_.b.dot(m.b) * root - w * t.t1 + t.t0 * r3;
-    t.t4 = (normal_.a.dot(m.b) + normal_.b.dot(m.a)) * root - u * t.t1 - w * t.t2 + t.t0 * r4;
+    t.t0 = n.c.dot(v.c) * root;
+    t.t2 = (n.a.dot(v.c) + n.c.dot(v.a)) * root - t.t0 * u;
+    t.t1 = (n.b.dot(v.c) + n.c.dot(v.b)) * root - t.t0 * w;
+    t.t5 = n.a.dot(v.a) * root - u * t.t2 + t.t0 * r5;
+    t.t3 = n.b.dot(v.b) * root - w * t.t1 + t.t0 * r3;
+    t.t4 = (n.a.dot(v.b) + n.b.dot(v.a)) * root - u * t.t1 - w * t.t2 + t.t0 * r4;
     return t;
   }
 
  private:
-  Linear<Vector3<T>> normal_;
-  T root_;          // 1/|C|
-  T g_, h_;         // A·C/|C|², B·C/|C|²
+  ScaledVector<T> n_;
   T q5_, q4_, q3_;  // (g² − |A|²/|C|²)/2, gh − A·B/|C|², (h² − |B|²/|C|²)/2
 };
 

@@ -3,37 +3,86 @@
 #pragma once
 
 #include <array>
+#include <tuple>
 
-#include "model/shading/halfway.h"
-#include "model/shading/quadratics/cosine_series.h"
+#include "model/shading/quadratics/reflection_series.h"
+#include "model/shading/quadratics/series_bound.h"
 
 namespace phongpipe {
 
-// Which series a triangle needs, and which form the halfway vector takes.
+// All that decides what the setup engine executes for a triangle under one light.
 struct SeriesPlan {
   int channels = 1;
-  bool local_viewer = false;
+  bool diffuse = true, specular = true;
   bool gate_series = false;
-  SeriesFit fit = SeriesFit::taylor;
+  bool depth = true, depth_cue = false;
+  // Whether bounds are computed first: light that cannot reach the triangle is left out, and of a
+  // highlight that cannot be seen at least the effort of its fit.
+  bool bound_light = false, bound_highlight = false;
+  bool dim = false;  // the highlight has been found invisible
+  // The normals do not turn: under a light at infinity, and for highlights an eye there, a series
+  // is its T0.
+  bool flat_light = false, flat_highlight = false;
+  // The fits that weigh a highlight are lost on one that cannot be seen.
+  SeriesFit highlight_fit() const { return dim ? SeriesFit::six_point : form.fit; }
+  ReflectionForm form;  // but for what is wanted
 };
+
+inline bool operator==(const SeriesPlan& a, const SeriesPlan& b) {
+  const auto values = [](const SeriesPlan& p) {
+    const ReflectionForm& f = p.form;
+    return std::tie(p.channels, p.diffuse, p.specular, p.gate_series, p.depth, p.depth_cue,
+                    p.bound_light, p.bound_highlight, p.dim, p.flat_light, p.flat_highlight, f.fit,
+                    f.point_light, f.local_viewer, f.highlight, f.attenuated, f.spot_factor);
+  };
+  return values(a) == values(b);
+}
 
 template <typename T>
 struct TriangleInput {
   std::array<T, 3> x, y, z;  // x and y in pixels from the expansion point
-  std::array<Vector3<T>, 3> normal;
-  std::array<Vector3<T>, 3> eye;  // surface → eye, of any length; read for a local viewer only
+  Corners<T> normal;
+  Corners<T> eye;              // surface → eye, of any length; read for a local viewer only
+  Corners<T> light;            // surface → light, of true length; for point and spot lights only
+  std::array<T, 3> own_share;  // of the pixel's colour under depth cueing, not clamped
 };
 
-// What is the same for all triangles of a material.
+// What is the same for all triangles of a material under one light.
 template <typename T>
 struct LightInput {
-  Vector3<T> to_light;  // unit
-  Vector3<T> halfway;   // unit; read for a viewer at infinity only
+  ReflectionTerms<T> terms;
   std::array<T, 3> diffuse_scale;
   T specular_scale;
-  T sharpness;  // shininess − 1, at least 0; read by the fits that weigh a highlight
   T gate_scale;
 };
+
+// The highest values, as cosines, that the series of a triangle can have; of the highlight, as
+// six_point fits it.
+template <typename T>
+struct TriangleBounds {
+  T light{}, highlight{};
+  T turn{};  // of the normals, see FieldExtent
+};
+
+template <typename T>
+TriangleBounds<T> bound_triangle(const SeriesPlan& plan, const TriangleInput<T>& triangle,
+                                 const LightInput<T>& light) {
+  TriangleBounds<T> bounds;
+  if (!plan.bound_light && !plan.bound_highlight) return bounds;
+  const FieldExtent<T> extent(squared_length(triangle.normal));
+  const T remainder = taylor_remainder(extent.turn);
+  bounds.turn = extent.turn;
+  if (plan.bound_light) {
+    const auto range = cosine_range(triangle.normal, extent, light.terms.to_light);
+    const bool six = plan.form.fit == SeriesFit::six_point;
+    bounds.light = highest_value(range, remainder, six ? kSixPointNorm : kNinePointNorm);
+  }
+  if (plan.bound_highlight) {
+    const auto range = cosine_range(triangle.normal, extent, light.terms.halfway);
+    bounds.highlight = highest_value(range, remainder, kSixPointNorm);
+  }
+  return bounds;
+}
 
 template <typename T>
 struct TriangleCoefficients {
@@ -41,6 +90,7 @@ struct TriangleCoefficients {
   Quadratic<T> specular;
   Quadratic<T> gate;
   Linear<T> depth;
+  Linear<T> own_share;
 };
 
 template <typename T>
@@ -48,22 +98,48 @@ TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInp
                                        const LightInput<T>& light) {
   const Interpolator<T> interpolate(triangle.x, triangle.y);
   TriangleCoefficients<T> result;
-  result.depth = interpolate(triangle.z[0], triangle.z[1], triangle.z[2]);
+  const auto interpolated = [&](const std::array<T, 3>& q) {
+    return interpolate(q[0], q[1], q[2]);
+  };
+  if (plan.depth) result.depth = interpolated(triangle.z);
+  if (plan.depth_cue) result.own_share = interpolated(triangle.own_share);
 
+  const auto flat = [&](const Vector3<T>& m) {
+    const Vector3<T>& normal = triangle.normal[0];
+    return Quadratic<T>{normal.dot(m) * rsqrt(normal.dot(normal)), 0, 0, 0, 0, 0};
+  };
+  const auto series_of = [&](SeriesFit fit, const SeriesWanted& wanted) {
+    ReflectionForm form = plan.form;
+    form.fit = fit;
+    form.wanted = wanted;
+    return reflection_series(form, interpolate, triangle.normal, triangle.eye, triangle.light,
+                             light.terms);
+  };
+  const bool wants_light = plan.diffuse || plan.gate_series;
+  const bool together =
+      wants_light && plan.specular && !plan.flat_light && plan.highlight_fit() == plan.form.fit;
   CosineSeries<T> series;
-  if (plan.local_viewer) {
-    series = fit_series(plan.fit, interpolate, triangle.normal, light.to_light,
-                        halfway_at_corners(triangle.eye, light.to_light), light.sharpness);
+  if (together) {
+    series = series_of(plan.form.fit, {true, true});
   } else {
-    series = fit_series(plan.fit, interpolate, triangle.normal, light.to_light, light.halfway,
-                        light.sharpness);
+    if (wants_light) {
+      series.light = plan.flat_light ? flat(light.terms.to_light)
+                                     : series_of(plan.form.fit, {true, false}).light;
+    }
+    if (plan.specular) {
+      series.highlight = plan.flat_highlight
+                             ? flat(light.terms.halfway)
+                             : series_of(plan.highlight_fit(), {false, true}).highlight;
+    }
   }
-  for (int c = 0; c < plan.channels; ++c) {
-    const auto channel = static_cast<std::size_t>(c);
-    result.diffuse[channel] = series.light.scaled(light.diffuse_scale[channel]);
+  if (plan.diffuse) {
+    for (int c = 0; c < plan.channels; ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      result.diffuse[channel] = series.light.scaled(light.diffuse_scale[channel]);
+    }
   }
   if (plan.gate_series) result.gate = series.light.scaled(light.gate_scale);
-  result.specular = series.highlight.scaled(light.specular_scale);
+  if (plan.specular) result.specular = series.highlight.scaled(light.specular_scale);
   return result;
 }
 

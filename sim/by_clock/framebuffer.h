@@ -11,13 +11,17 @@ class Framebuffer : public sc_core::sc_module {
   Framebuffer(const sc_core::sc_module_name& name, FrameContext& context, sc_core::sc_clock& clk,
               ClockedFifo<DepthPixel>& pixels)
       : sc_core::sc_module(name), context_(context), pixels_(pixels), memory_(context.frame) {
+    if (context.frame.depth_test) depth_test_ = std::make_unique<DatapathBlock>("depth_test");
     SC_METHOD(clock);
     sensitive << clk.posedge_event();
     dont_initialize();
   }
   SC_HAS_PROCESS(Framebuffer);
 
-  phongpipe::Framebuffer take_memory() { return std::move(memory_); }
+  phongpipe::Framebuffer take_memory() {
+    if (depth_test_) context_.result.depth_additions = depth_test_->operations.additions;
+    return std::move(memory_);
+  }
   bool busy() const { return busy_ > 0; }
   std::uint64_t moved() const { return place_; }
 
@@ -30,16 +34,22 @@ class Framebuffer : public sc_core::sc_module {
     // A wrong place must not write outside the image; the comparison of streams will tell it.
     const bool inside =
         pixel.pixel.x < context_.frame.width && pixel.pixel.y < context_.frame.height;
-    const bool written =
-        inside && memory_.write(pixel.pixel.x, pixel.pixel.y, pixel.depth, pixel.pixel.color);
-    busy_ = context_.framebuffer_cycles(written, place_++);
+    busy_ = context_.framebuffer_cycles(pixel.base, inside && take(pixel), place_++);
     context_.result.frame_cycles = cycle + busy_;
     pixels_.pop();
+  }
+
+  bool take(const DepthPixel& pixel) {
+    if (depth_test_ && pixel.base) ++depth_test_->operations.additions;
+    const auto& [x, y, color] = pixel.pixel;
+    return pixel.base ? memory_.write(x, y, pixel.depth, pixel.triangle, color)
+                      : memory_.add(x, y, pixel.triangle, color);
   }
 
   FrameContext& context_;
   ClockedFifo<DepthPixel>& pixels_;
   phongpipe::Framebuffer memory_;
+  std::unique_ptr<DatapathBlock> depth_test_;  // steps depth, where it is tested at all
   Cycle cycle_ = 0, busy_ = 0;
   std::uint32_t place_ = 0;
 };

@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "sim/clocked_fifo.h"
+#include "sim/datapath_blocks.h"
 #include "sim/datapath_driver.h"
 #include "sim/frame_context.h"
 
@@ -18,7 +19,8 @@ class PixelDatapath : public sc_core::sc_module {
         context_(context),
         spans_(spans),
         pixels_(pixels),
-        driver_(context.frame, datapath) {
+        driver_(context.frame, datapath),
+        blocks_(context.frame.configuration) {
     SC_METHOD(clock);
     sensitive << clk.posedge_event();
     dont_initialize();
@@ -35,6 +37,8 @@ class PixelDatapath : public sc_core::sc_module {
         driver_.clock(spans_.empty() ? nullptr : &spans_.front(), !pixels_.full());
     if (outcome.span_taken) {
       in_flight_.push_back(spans_.front());
+      blocks_.shade(spans_.front());
+      context_.result.pixel_operations = blocks_.operations();
       spans_.pop();
     }
     if (outcome.pixel_taken) deliver(outcome.pixel, cycle);
@@ -47,7 +51,8 @@ class PixelDatapath : public sc_core::sc_module {
     context_.record(pixel, cycle);
     if (in_flight_.empty()) return;  // a pixel nobody asked for; the comparison will tell
     const Span& span = in_flight_.front();
-    pixels_.push({pixel, phongpipe::Framebuffer::depth(context_.frame, span, delivered_)});
+    pixels_.push({pixel, phongpipe::Framebuffer::depth(context_.frame, span, delivered_),
+                  span.triangle, span.base});
     if (++delivered_ == span.row.length) {
       in_flight_.pop_front();
       delivered_ = 0;
@@ -58,6 +63,7 @@ class PixelDatapath : public sc_core::sc_module {
   ClockedFifo<Span>& spans_;
   ClockedFifo<DepthPixel>& pixels_;
   DatapathDriver driver_;
+  DatapathBlocks blocks_;
   Cycle cycle_ = 0;
   std::deque<Span> in_flight_;  // their depths travel with the pixels
   int delivered_ = 0;           // pixels of the first of them

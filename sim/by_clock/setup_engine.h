@@ -10,7 +10,10 @@ class SetupEngine : public sc_core::sc_module {
  public:
   SetupEngine(const sc_core::sc_module_name& name, FrameContext& context, sc_core::sc_clock& clk,
               ClockedFifo<WorkHandle>& triangles)
-      : sc_core::sc_module(name), context_(context), triangles_(triangles) {
+      : sc_core::sc_module(name),
+        context_(context),
+        triangles_(triangles),
+        next_(context.front_end) {
     SC_METHOD(clock);
     sensitive << clk.posedge_event();
     dont_initialize();
@@ -19,7 +22,7 @@ class SetupEngine : public sc_core::sc_module {
   SC_HAS_PROCESS(SetupEngine);
 
   bool done() const { return work_ == nullptr; }
-  std::uint64_t moved() const { return next_triangle_; }
+  std::uint64_t moved() const { return moved_; }
 
  private:
   void clock() {
@@ -27,24 +30,26 @@ class SetupEngine : public sc_core::sc_module {
     if (cycles_left_ > 0) --cycles_left_;
     if (cycles_left_ > 0 || triangles_.full()) return;
     triangles_.push(work_);
+    ++moved_;
     start_next();
   }
 
   void start_next() {
     auto work = std::make_shared<TriangleWork>();
-    while (next_triangle_ < context_.front_end.triangles()) {
-      if (context_.front_end.set_up(next_triangle_++, *work)) {
-        work_ = std::move(work);
-        cycles_left_ = context_.result.setup_cycles;
-        return;
-      }
-    }
     work_ = nullptr;
+    cycles_left_ = 0;
+    while (work_ == nullptr && !next_.done()) {
+      if (context_.set_up(next_, *work, cycles_left_) == SetupOutcome::ready) {
+        work_ = std::move(work);
+      }
+      next_.advance();
+    }
   }
 
   FrameContext& context_;
   ClockedFifo<WorkHandle>& triangles_;
-  std::uint32_t next_triangle_ = 0;
+  TriangleOrder next_;
+  std::uint64_t moved_ = 0;
   WorkHandle work_;
   Cycle cycles_left_ = 0;
 };

@@ -8,31 +8,45 @@ namespace phongpipe::by_span {
 class Framebuffer : public sc_core::sc_module {
  public:
   Framebuffer(const sc_core::sc_module_name& name, FrameContext& context)
-      : sc_core::sc_module(name), context_(context), memory_(context.frame) {}
+      : sc_core::sc_module(name), context_(context), memory_(context.frame) {
+    if (context.frame.depth_test) depth_test_ = std::make_unique<DatapathBlock>("depth_test");
+  }
 
   // The cycles the next pixel of the stream takes.
   Cycle take(const Span& span, int i, const ShadedPixel& pixel) {
+    count_test(span, 1);
     const std::uint32_t depth = phongpipe::Framebuffer::depth(context_.frame, span, i);
-    const bool written = memory_.write(pixel.x, pixel.y, depth, pixel.color);
-    return context_.framebuffer_cycles(written, place_++);
+    const bool taken = span.base
+                           ? memory_.write(pixel.x, pixel.y, depth, span.triangle, pixel.color)
+                           : memory_.add(pixel.x, pixel.y, span.triangle, pixel.color);
+    return context_.framebuffer_cycles(span.base, taken, place_++);
   }
   // The same for each pixel of a span.
   void take(const Span& span, const std::uint32_t* colors, Cycle* cycles) {
     const auto length = static_cast<std::size_t>(span.row.length);
-    written_.resize(std::max(written_.size(), length));
-    memory_.write_span(context_.frame, span, colors, written_.data());
+    count_test(span, length);
+    taken_.resize(std::max(taken_.size(), length));
+    memory_.take_span(context_.frame, span, colors, taken_.data());
     for (std::size_t i = 0; i < length; ++i) {
-      cycles[i] = context_.framebuffer_cycles(written_[i] != 0, place_++);
+      cycles[i] = context_.framebuffer_cycles(span.base, taken_[i] != 0, place_++);
     }
   }
 
-  phongpipe::Framebuffer take_memory() { return std::move(memory_); }
+  phongpipe::Framebuffer take_memory() {
+    if (depth_test_) context_.result.depth_additions = depth_test_->operations.additions;
+    return std::move(memory_);
+  }
 
  private:
+  void count_test(const Span& span, std::size_t pixels) {
+    if (depth_test_ && span.base) depth_test_->operations.additions += pixels;
+  }
+
+  std::unique_ptr<DatapathBlock> depth_test_;  // steps depth, where it is tested at all
   FrameContext& context_;
   phongpipe::Framebuffer memory_;
   std::uint32_t place_ = 0;
-  std::vector<std::uint8_t> written_;
+  std::vector<std::uint8_t> taken_;
 };
 
 }  // namespace phongpipe::by_span

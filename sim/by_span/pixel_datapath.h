@@ -3,6 +3,7 @@
 
 #include "model/fixed/pixel_datapath.h"
 #include "sim/by_span/framebuffer.h"
+#include "sim/datapath_blocks.h"
 #include "sim/pixel_timing.h"
 
 namespace phongpipe::by_span {
@@ -15,8 +16,9 @@ class PixelDatapath : public sc_core::sc_module {
         context_(context),
         spans_(spans),
         framebuffer_(framebuffer),
-        values_(context.frame.configuration),
-        timing_(context.configuration.pixel_fifo) {
+        blocks_(context.frame.configuration),
+        values_(context.frame.configuration, best_evaluation(), context.frame.cue_color),
+        timing_(context.frame.configuration.latency(), context.configuration.pixel_fifo) {
     SC_THREAD(run);
   }
   SC_HAS_PROCESS(PixelDatapath);
@@ -24,11 +26,12 @@ class PixelDatapath : public sc_core::sc_module {
  private:
   void run();
   // Empties the datapath and loads the table; the cycle from which the span may enter.
-  Cycle load_material(std::uint32_t material, Cycle asked);
+  Cycle load_table(std::uint32_t table, Cycle asked);
 
   FrameContext& context_;
   TimestampedFifo<Span>& spans_;
   Framebuffer& framebuffer_;
+  DatapathBlocks blocks_;
   phongpipe::PixelDatapath values_;
   PixelTiming timing_;
   std::uint32_t loaded_ = ~std::uint32_t{0};

@@ -16,11 +16,13 @@ class SetupEngine : public sc_core::sc_module {
 
  private:
   void run() {
-    Cycle written = -1;
-    for (std::uint32_t triangle = 0; triangle < context_.front_end.triangles(); ++triangle) {
+    Cycle written = -1, busy = 0;
+    for (TriangleOrder next(context_.front_end); !next.done(); next.advance()) {
       auto work = std::make_shared<TriangleWork>();
-      if (!context_.front_end.set_up(triangle, *work)) continue;
-      written = triangles_.write(std::move(work), written + context_.result.setup_cycles);
+      const SetupOutcome outcome = context_.set_up(next, *work, busy);
+      if (outcome != SetupOutcome::ready) continue;
+      written = triangles_.write(std::move(work), written + busy);
+      busy = 0;
     }
     triangles_.close();
   }

@@ -67,7 +67,7 @@ void phong_in_double(benchmark::State& state) {
 void model(benchmark::State& state, Evaluation evaluation) {
   const std::vector<Span> spans = spans_of_length(state.range(0));
   PixelDatapath datapath(pawn().frame.configuration, evaluation);
-  datapath.load_material(pawn().material());
+  datapath.load_table(pawn().table());
   std::vector<std::uint32_t> colors(4096 + PixelDatapath::kLanes);
   for (auto _ : state) {
     for (const Span& span : spans) {

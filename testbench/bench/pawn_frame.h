@@ -29,8 +29,8 @@ struct PawnFrame {
   void for_each_span(Visit visit) const {
     const FrontEnd front_end(frame, geometry);
     TriangleWork work;
-    for (std::uint32_t triangle = 0; triangle < front_end.triangles(); ++triangle) {
-      if (!front_end.set_up(triangle, work)) continue;
+    for (TriangleOrder next(front_end); !next.done(); next.advance()) {
+      if (front_end.set_up(next.triangle(), next.pass(), work) != SetupOutcome::ready) continue;
       for (const RowSpan& row : work.rows) {
         visit(front_end.span_walker().start(work.setup, row));
       }
@@ -42,7 +42,7 @@ struct PawnFrame {
     for_each_span([&result](const Span& span) { result.push_back(span); });
     return result;
   }
-  const MaterialSetup& material() const { return frame.materials.front(); }
+  const HighlightTable& table() const { return frame.tables.front(); }
 
  private:
   static Scene load(int size) {

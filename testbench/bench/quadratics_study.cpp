@@ -39,8 +39,9 @@ Candidate candidate(const std::string& name, const Fit& fit) {
   LightInput<Recorded> light{};
   const TriangleInput<Recorded> triangle{};
   interpolate(triangle.z[0], triangle.z[1], triangle.z[2]);
-  const CosineSeries<Recorded> series = fit(FitInput<Recorded>{
-      interpolate, triangle.normal, light.to_light, light.halfway, light.sharpness});
+  const CosineSeries<Recorded> series =
+      fit(FitInput<Recorded>{interpolate, triangle.normal, light.terms.to_light,
+                             light.terms.halfway, light.terms.sharpness});
   series.light.scaled(light.diffuse_scale[0]);
   series.highlight.scaled(light.specular_scale);
   return {name, fit, recording.dataflow()};

@@ -16,8 +16,8 @@ class RtlLoop {
   static constexpr std::size_t kPixels = kBatch * 4096;
 
   RtlLoop() : library_(pawn().frame.configuration, {}), rtl_(library_), spans_(pawn().spans()) {
-    rtl_.load_material(pawn().material());
-    for (const Span& span : spans_) rtl_spans_.push_back(to_rtl(span, pawn().material()));
+    rtl_.load_table(pawn().table());
+    for (const Span& span : spans_) rtl_spans_.push_back(to_rtl(span));
   }
 
   // visit(spans of a batch, their number, the RTL's pixels)
@@ -26,7 +26,8 @@ class RtlLoop {
     pixels_.resize(kPixels);
     for (std::size_t first = 0; first < spans_.size(); first += kBatch) {
       const std::size_t count = std::min(kBatch, spans_.size() - first);
-      library_.interface().run(rtl_.rtl(), rtl_spans_.data() + first, count, pixels_.data());
+      library_.interface().run(rtl_.rtl(), pawn().frame.cue_color.data(), rtl_spans_.data() + first,
+                               count, pixels_.data());
       visit(spans_.data() + first, count, pixels_.data());
     }
   }
@@ -62,7 +63,7 @@ void expect_span(const Span& span, const std::uint32_t* colors, RtlPixel* expect
 void compared(benchmark::State& state) {
   RtlLoop loop;
   PixelDatapath datapath(pawn().frame.configuration);
-  datapath.load_material(pawn().material());
+  datapath.load_table(pawn().table());
   std::vector<std::uint32_t> colors(4096 + PixelDatapath::kLanes);
   std::vector<RtlPixel> expected(RtlLoop::kPixels + PixelDatapath::kLanes);
   std::uint64_t different_batches = 0;

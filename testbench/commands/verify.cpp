@@ -73,6 +73,13 @@ void add_verify(CLI::App& application, Run& run) {
                    "Random back-pressure: per cent of pixels the framebuffer stalls at")
       ->check(CLI::Range(0, 100));
   command->add_option("--seed", v.seed, "Of the random back-pressure")->capture_default_str();
+  const std::map<std::string, Effects> effects = {{"scene", Effects::derived},
+                                                  {"all", Effects::all}};
+  command
+      ->add_option("--effects", v.effects,
+                   "Build and simulate what the scene's effects need, or everything there is")
+      ->transform(CLI::CheckedTransformer(effects))
+      ->default_str("scene");
   command->add_option("--rtl", v.rtl_sources, "Folder of the RTL to verify, if not the installed")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);

@@ -14,6 +14,9 @@ int main() {
   define("GUARD_BITS", kGuardBits);
   define("COORDINATE_BITS", kCoordinateBits);
   define("LENGTH_BITS", kLengthBits);
+  define("CUE_WIDTH", kCueWidth);
+  define("CUE_FRACTION", kCueFraction);
+  define("CUE_FACTOR_BITS", kCueFactorBits);
   define("GATE_OFF", static_cast<int>(GateSource::off));
   define("GATE_DIFFUSE", static_cast<int>(GateSource::diffuse));
   define("GATE_SERIES", static_cast<int>(GateSource::series));

@@ -15,7 +15,9 @@ struct RtlSpan {
   RtlSeries diffuse[3];
   RtlSeries specular;
   RtlSeries gate;
+  RtlSeries cue;  // without d2
   std::int64_t level[3];
+  std::uint8_t base, step_diffuse, step_specular, highlight;
 };
 
 // The ports, for one clock. Outputs are as they stand before its edge.
@@ -24,6 +26,7 @@ struct RtlPorts {
   std::uint8_t reset, pixel_ready, rom_write;
   std::uint16_t rom_address;
   std::uint16_t rom_data[3];
+  std::uint8_t cue_color[3];
 
   std::uint8_t span_ready, pixel_valid;
   std::uint16_t pixel_x, pixel_y;
@@ -41,7 +44,8 @@ struct RtlInterface {
   void (*clock)(void* rtl, RtlPorts* ports);
   // Spans back to back with the output always ready; returns the clocks until the last pixel has
   // left. `pixels` has room for all of them.
-  std::uint64_t (*run)(void* rtl, const RtlSpan* spans, std::size_t count, RtlPixel* pixels);
+  std::uint64_t (*run)(void* rtl, const std::uint8_t* cue_color, const RtlSpan* spans,
+                       std::size_t count, RtlPixel* pixels);
 };
 
 const RtlInterface* phongpipe_rtl_interface();

@@ -18,9 +18,10 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string parameters(const DatapathConfiguration& c) {
-  return fmt::format("c{}-d{}-s{}-a{}-w{}-g{}", c.channels, c.diffuse_fraction_bits,
+  return fmt::format("c{}-d{}-s{}-a{}-w{}-g{}{}{}{}", c.channels, c.diffuse_fraction_bits,
                      c.specular_fraction_bits, c.rom_address_bits, c.rom_data_bits,
-                     static_cast<int>(c.gate));
+                     static_cast<int>(c.gate), c.diffuse ? "-diffuse" : "",
+                     c.specular ? "-specular" : "", c.depth_cue ? "-depth_cue" : "");
 }
 
 std::vector<fs::path> rtl_sources(const fs::path& folder) {
@@ -132,6 +133,9 @@ void build(const DatapathConfiguration& c, const fs::path& sources, const fs::pa
       "pixel_datapath",
       "-I" + sources.string(),
       fmt::format("-GCHANNELS={}", c.channels),
+      fmt::format("-GDIFFUSE={}", static_cast<int>(c.diffuse)),
+      fmt::format("-GSPECULAR={}", static_cast<int>(c.specular)),
+      fmt::format("-GDEPTH_CUE={}", static_cast<int>(c.depth_cue)),
       fmt::format("-GDIFFUSE_FRACTION={}", c.diffuse_fraction_bits),
       fmt::format("-GSPECULAR_FRACTION={}", c.specular_fraction_bits),
       fmt::format("-GROM_ADDRESS_BITS={}", c.rom_address_bits),
@@ -157,6 +161,8 @@ void build(const DatapathConfiguration& c, const fs::path& sources, const fs::pa
       fmt::format("-DPHONGPIPE_DIFFUSE_WIDTH={}", c.diffuse_width()),
       fmt::format("-DPHONGPIPE_SPECULAR_WIDTH={}", c.specular_width()),
       fmt::format("-DPHONGPIPE_ROM_DATA_BITS={}", c.rom_data_bits),
+      fmt::format("-DPHONGPIPE_CUE_WIDTH={}", kCueWidth),
+      fmt::format("-DPHONGPIPE_OUTPUT_BITS={}", kOutputBits),
       (installation().rtl_shim / "rtl_shim.cpp").string()};
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".cpp") compile.push_back(entry.path().string());

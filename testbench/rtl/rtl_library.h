@@ -35,12 +35,12 @@ class RtlLibrary {
   const RtlInterface* interface_ = nullptr;
 };
 
-RtlSpan to_rtl(const Span& span, const MaterialSetup& material);
+RtlSpan to_rtl(const Span& span);
 
 // One instance of the RTL behind the ports the SystemC pipeline drives.
 class RtlDatapath : public ClockedDatapath {
  public:
-  explicit RtlDatapath(const RtlLibrary& library);
+  explicit RtlDatapath(const RtlLibrary& library, const OutputColor& cue_color = {});
   ~RtlDatapath() override;
   RtlDatapath(const RtlDatapath&) = delete;
   RtlDatapath& operator=(const RtlDatapath&) = delete;
@@ -48,8 +48,8 @@ class RtlDatapath : public ClockedDatapath {
   void reset() override;
   DatapathOutputs clock(const DatapathInputs& inputs) override;
 
-  // Writes the table of a material, one word a clock.
-  void load_material(const MaterialSetup& material);
+  // Writes a table, one word a clock.
+  void load_table(const HighlightTable& table);
 
   void* rtl() const { return rtl_; }
 

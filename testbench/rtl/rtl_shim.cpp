@@ -10,12 +10,14 @@
 namespace {
 
 #ifndef PHONGPIPE_CHANNELS
-#error "PHONGPIPE_CHANNELS, _DIFFUSE_WIDTH, _SPECULAR_WIDTH and _ROM_DATA_BITS must be defined"
+#error "PHONGPIPE_CHANNELS, _DIFFUSE_WIDTH and the others below must be defined"
 #endif
 constexpr int kChannels = PHONGPIPE_CHANNELS;
 constexpr int kDiffuseWidth = PHONGPIPE_DIFFUSE_WIDTH;
 constexpr int kSpecularWidth = PHONGPIPE_SPECULAR_WIDTH;
 constexpr int kRomDataBits = PHONGPIPE_ROM_DATA_BITS;
+constexpr int kCueWidth = PHONGPIPE_CUE_WIDTH;
+constexpr int kOutputBits = PHONGPIPE_OUTPUT_BITS;
 
 // The low `width` bits of each value side by side, the first in the low bits, into a port of
 // whatever type Verilator chose for it.
@@ -64,6 +66,7 @@ class Rtl {
       top_.rom_address = static_cast<decltype(+top_.rom_address)>(ports.rom_address);
       pack(top_.rom_data, ports.rom_data, kChannels, kRomDataBits);
     }
+    pack(top_.cue_color, ports.cue_color, kChannels, kOutputBits);
     top_.span_valid = ports.span != nullptr;
     if (ports.span != presented_) present(ports.span);
     top_.clk = 0;
@@ -79,12 +82,14 @@ class Rtl {
     edge();
   }
 
-  std::uint64_t run(const RtlSpan* spans, std::size_t count, RtlPixel* pixels) {
+  std::uint64_t run(const std::uint8_t* cue_color, const RtlSpan* spans, std::size_t count,
+                    RtlPixel* pixels) {
     std::uint64_t left = 0;
     for (std::size_t i = 0; i < count; ++i) left += static_cast<std::uint64_t>(spans[i].length);
     const RtlSpan* const end = spans + count;
     RtlPorts ports = {};
     ports.pixel_ready = 1;
+    for (int c = 0; c < kChannels; ++c) ports.cue_color[c] = cue_color[c];
     std::uint64_t clocks = 0;
     // A datapath that loses pixels must not keep us forever.
     for (const std::uint64_t limit = 2 * left + count + 64; left > 0 && clocks < limit; ++clocks) {
@@ -111,6 +116,10 @@ class Rtl {
     top_.span_x = static_cast<SData>(span->x);
     top_.span_y = static_cast<SData>(span->y);
     top_.span_length = static_cast<SData>(span->length);
+    top_.span_base = span->base;
+    top_.span_step_diffuse = span->step_diffuse;
+    top_.span_step_specular = span->step_specular;
+    top_.span_highlight = span->highlight;
     std::int64_t v[3], d1[3], d2[3];
     for (int c = 0; c < kChannels; ++c) {
       v[c] = span->diffuse[c].v;
@@ -127,6 +136,8 @@ class Rtl {
     pack(top_.span_gate_v, &span->gate.v, 1, kDiffuseWidth);
     pack(top_.span_gate_d1, &span->gate.d1, 1, kDiffuseWidth);
     pack(top_.span_gate_d2, &span->gate.d2, 1, kDiffuseWidth);
+    pack(top_.span_cue_v, &span->cue.v, 1, kCueWidth);
+    pack(top_.span_cue_d1, &span->cue.d1, 1, kCueWidth);
   }
 
   VerilatedContext context_;
@@ -137,9 +148,8 @@ class Rtl {
 const RtlInterface kInterface = {
     []() -> void* { return new Rtl; }, [](void* rtl) { delete static_cast<Rtl*>(rtl); },
     [](void* rtl, RtlPorts* ports) { static_cast<Rtl*>(rtl)->clock(*ports); },
-    [](void* rtl, const RtlSpan* spans, std::size_t count, RtlPixel* pixels) {
-      return static_cast<Rtl*>(rtl)->run(spans, count, pixels);
-    }};
+    [](void* rtl, const std::uint8_t* cue_color, const RtlSpan* spans, std::size_t count,
+       RtlPixel* pixels) { return static_cast<Rtl*>(rtl)->run(cue_color, spans, count, pixels); }};
 
 }  // namespace
 

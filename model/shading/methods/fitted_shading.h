@@ -5,11 +5,10 @@
 #include <cmath>
 #include <type_traits>
 
-#include "model/shading/halfway.h"
 #include "model/shading/methods/forward_differences.h"
 #include "model/shading/methods/power.h"
 #include "model/shading/methods/shading_input.h"
-#include "model/shading/quadratics/cosine_series.h"
+#include "model/shading/quadratics/reflection_series.h"
 
 namespace phongpipe {
 
@@ -17,25 +16,18 @@ template <typename T, Parts kParts, SeriesFit kFit, bool kLocalViewer>
 class FittedSeries {
  public:
   explicit FittedSeries(const ShadingInput<T>& in) {
-    const Interpolator<T> interpolate = interpolator(in);
-    if constexpr (kParts == Parts::diffuse) {
-      const BarycentricBasis<T> basis(interpolate.coordinate_1(), interpolate.coordinate_2());
-      if constexpr (kFit == SeriesFit::six_point) {
-        const NormalSamples<T, kSixPoints> samples(in.normal);
-        series_.light = basis(detail::through(samples.cosines(in.light)));
-      } else {
-        const NormalSamples<T, kNinePoints> samples(in.normal);
-        series_.light = basis(fit_nine_points(samples.cosines(in.light)));
-      }
-    } else {
-      const T sharpness(std::max(0.0, in.power->shininess() - 1));
-      if constexpr (kLocalViewer) {
-        series_ = fit_series(kFit, interpolate, in.normal, in.light,
-                             halfway_at_corners(in.eye, in.light), sharpness);
-      } else {
-        series_ = fit_series(kFit, interpolate, in.normal, in.light, in.halfway, sharpness);
-      }
+    ReflectionForm form;
+    form.fit = kFit;
+    form.local_viewer = kLocalViewer;
+    form.wanted.highlight = kParts == Parts::full;
+    ReflectionTerms<T> terms;
+    terms.to_light = in.light;
+    terms.eye = in.viewer;
+    terms.halfway = in.halfway;
+    if constexpr (kParts == Parts::full) {
+      terms.sharpness = T(std::max(0.0, in.power->shininess() - 1));
     }
+    series_ = reflection_series(form, interpolator(in), in.normal, in.eye, in.to_light, terms);
   }
 
   void start_span(const T& x, const T& y) {

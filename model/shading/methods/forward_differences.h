@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "model/shading/taylor.h"
+#include "model/shading/quadratics/truncated_series.h"
 
 namespace phongpipe {
 
@@ -73,11 +73,6 @@ template <typename T>
 Quadratic<T> operator*(const Linear<T>& p, const Linear<T>& q) {
   return {p.c * q.c, p.b * q.c + p.c * q.b, p.a * q.c + p.c * q.a,
           p.b * q.b, p.a * q.b + p.b * q.a, p.a * q.a};
-}
-
-template <typename T>
-Quadratic<T> operator-(const Quadratic<T>& p, const Quadratic<T>& q) {
-  return {p.t0 - q.t0, p.t1 - q.t1, p.t2 - q.t2, p.t3 - q.t3, p.t4 - q.t4, p.t5 - q.t5};
 }
 
 }  // namespace phongpipe

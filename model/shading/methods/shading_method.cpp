@@ -28,6 +28,7 @@ std::optional<std::string> light_refusal(const Abilities& can, const Scene& scen
   if (scene.lights.size() > 1 && !can.several_lights) {
     return fmt::format("it has one light, the scene has {}", scene.lights.size());
   }
+  if (scene.depth_cue && !can.depth_cue) return "it has no depth cueing";
   for (const Light& light : scene.lights) {
     if (std::find(can.lights.begin(), can.lights.end(), light.type) == can.lights.end()) {
       std::string known;
@@ -36,9 +37,7 @@ std::optional<std::string> light_refusal(const Abilities& can, const Scene& scen
       }
       return fmt::format("it has {} lights, the scene a {} light", known, name(light.type));
     }
-    const bool fades = light.type != LightType::directional &&
-                       (light.attenuation[1] != 0 || light.attenuation[2] != 0);
-    if (fades && !can.attenuation) {
+    if (is_attenuated(light) && !can.attenuation) {
       return "it never computes the light's distance, by which the scene's light fades";
     }
   }

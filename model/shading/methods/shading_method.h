@@ -72,7 +72,8 @@ struct Abilities {
   bool several_lights = false;
   bool attenuation = false;  // by distance
   bool local_viewer = false;
-  std::optional<Highlight> highlight;  // the only one it has; none: both
+  std::optional<Highlight> highlight = {};  // the only one it has; none: both
+  bool depth_cue = false;
 };
 
 struct ShadingMethod {

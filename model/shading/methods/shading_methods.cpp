@@ -73,6 +73,7 @@ ShadingMethod method(const char* name, const char* description, const char* sour
 ShadingMethod general(ShadingMethod method,
                       std::unique_ptr<TriangleShader> (*create)(const ShaderContext&)) {
   method.abilities = everything();
+  method.abilities.depth_cue = method.name == "phong";
   method.create = create;
   return method;
 }

@@ -7,6 +7,7 @@
 #include <array>
 
 #include "model/shading/quadratics/barycentric.h"
+#include "model/shading/quadratics/sensitivity.h"
 
 namespace phongpipe {
 
@@ -93,8 +94,24 @@ template <typename T, std::size_t points>
 class NormalSamples {
  public:
   explicit NormalSamples(const std::array<Vector3<T>, 3>& normal)
-      : normal_(normal),
-        inverse_length_(inverse_roots(squared_length(normal).template sampled<points>())) {}
+      : NormalSamples(normal, squared_length(normal).template sampled<points>()) {}
+  // For vectors that may vanish, where forms are nothing but the rounding of their terms: squared
+  // lengths count as no less than `least` times the sum of those at the corners.
+  NormalSamples(const std::array<Vector3<T>, 3>& normal, double least)
+      : NormalSamples(normal, not_below(least, squared_length(normal).template sampled<points>())) {
+  }
+
+  // |N|
+  Values<T, points> lengths() const {
+    Values<T, points> result;
+    for (std::size_t i = 0; i < points; ++i) {
+      const T multiple = squared_length_[i] * inverse_length_[i];
+      result[i] = i < 3   ? multiple
+                  : i < 6 ? half(multiple)
+                          : multiple * T(i < 9 ? 1.0 / 6 : 1.0 / 3);
+    }
+    return result;
+  }
 
   // N·M / |N| at the first points, M constant and of unit length.
   template <std::size_t first = points>
@@ -106,11 +123,28 @@ class NormalSamples {
   // N·M / (|N||M|), M linear between the corners.
   template <std::size_t first = points>
   Values<T, first> cosines(const std::array<Vector3<T>, 3>& m) const {
-    const auto inverse = inverse_roots(squared_length(m).template sampled<first>());
-    return times(times(product(normal_, m).template sampled<first>(), inverse_length_), inverse);
+    return cosines<first>(NormalSamples<T, first>(m));
+  }
+  template <std::size_t first = points, std::size_t more>
+  Values<T, first> cosines(const NormalSamples<T, more>& m) const {
+    return times(times(product(normal_, m.normal_).template sampled<first>(), inverse_length_),
+                 m.inverse_length_);
   }
 
  private:
+  template <typename, std::size_t>
+  friend class NormalSamples;
+
+  NormalSamples(const std::array<Vector3<T>, 3>& normal, const Values<T, points>& squared_length)
+      : normal_(normal),
+        squared_length_(squared_length),
+        inverse_length_(inverse_roots(squared_length)) {}
+
+  static Values<T, points> not_below(double least, Values<T, points> v) {
+    const T low = (v[0] + v[1] + v[2]) * T(least);
+    for (T& x : v) x = maximum(low, x);
+    return v;
+  }
   template <std::size_t count>
   static Values<T, count> inverse_roots(Values<T, count> v) {
     for (T& x : v) x = rsqrt(x);
@@ -123,7 +157,7 @@ class NormalSamples {
   }
 
   std::array<Vector3<T>, 3> normal_;
-  Values<T, points> inverse_length_;
+  Values<T, points> squared_length_, inverse_length_;
 };
 
 }  // namespace phongpipe

@@ -13,6 +13,17 @@ enum class SeriesFit {
   focused     // the same, with the points of N·H closing in on the highlight
 };
 
+// What a light's two series are of, and of what they are made at a point.
+template <typename F>
+struct Reflected {
+  F light{}, highlight{};
+};
+
+// Which of the two are needed; no operation of the other is executed.
+struct SeriesWanted {
+  bool light = true, highlight = true;
+};
+
 // By the enumeration's order.
 inline std::vector<std::string_view> series_fit_names() {
   return {"taylor", "six-point", "weighted", "focused"};

@@ -82,6 +82,44 @@ TEST(DatapathConfiguration, FormatsFollow) {
   EXPECT_EQ(c.specular_width(), 40);
 }
 
+TEST(DatapathConfiguration, AHighlightWithoutDiffuseLightNeedsAnotherGate) {
+  DatapathConfiguration configuration;
+  configuration.diffuse = false;
+  configuration.gate = GateSource::diffuse;
+  EXPECT_NE(refusal(configuration).find("specular_gate = \"diffuse\" needs a diffuse series"),
+            std::string::npos);
+  for (const GateSource gate : {GateSource::off, GateSource::series}) {
+    configuration.gate = gate;
+    EXPECT_EQ(refusal(configuration), "no error");
+  }
+  configuration.gate = GateSource::diffuse;
+  configuration.specular = false;
+  EXPECT_EQ(refusal(configuration), "no error") << "nothing is gated";
+}
+
+TEST(DatapathConfiguration, BlocksLeftOutCostNothing) {
+  DatapathConfiguration c;
+  c.channels = 3;
+  c.gate = GateSource::series;
+  c.specular = false;
+  EXPECT_EQ(c.series(), 3) << "no highlight, no gate";
+  EXPECT_EQ(c.adders(), 6);
+  EXPECT_EQ(c.rom_bits(), 0);
+  c.diffuse = false;
+  EXPECT_EQ(c.series(), 0);
+  EXPECT_EQ(c.adders(), 0);
+  EXPECT_EQ(c.multipliers(), 0);
+  EXPECT_EQ(c.latency(), kDatapathLatency);
+  c.depth_cue = true;
+  EXPECT_EQ(c.adders(), 7) << "a linear series, a difference and a sum a channel";
+  EXPECT_EQ(c.multipliers(), 3);
+  EXPECT_EQ(c.latency(), kDatapathLatency + 1);
+  c.specular = true;
+  EXPECT_EQ(c.series(), 2) << "N·H and the gate";
+  EXPECT_EQ(c.adders(), 4 + 3 + 7);
+  EXPECT_EQ(c.rom_bits(), 3 * 8 * 1024);
+}
+
 // The paper's claim: 2 additions a pixel for diffuse light, 5 for full Phong.
 TEST(DatapathConfiguration, AddsFiveTimesAPixel) {
   DatapathConfiguration c;

@@ -3,76 +3,19 @@
 #include "model/fixed/pixel_datapath.h"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "testbench/tests/fixed/random_frame.h"
+#include "testbench/tests/fixed/random_datapath.h"
 
 namespace phongpipe {
 namespace {
 
 constexpr unsigned kSeed = 37;
 constexpr std::uint32_t kUntouched = 0xdeadbeef;
-
-std::string text(const DatapathConfiguration& c) {
-  return "channels " + std::to_string(c.channels) + ", diffuse " +
-         std::to_string(c.diffuse_fraction_bits) + ", specular " +
-         std::to_string(c.specular_fraction_bits) + ", rom " + std::to_string(c.rom_address_bits) +
-         " x " + std::to_string(c.rom_data_bits) + ", gate " +
-         std::to_string(static_cast<int>(c.gate));
-}
-
-DatapathConfiguration random_configuration(Random& random) {
-  DatapathConfiguration c;
-  const auto in_range_or_at_an_end = [&random](int low, int high) {
-    const int choice = random.integer(0, 5);
-    return choice == 0 ? low : choice == 1 ? high : random.integer(low, high);
-  };
-  c.channels = random.integer(0, 1) == 0 ? 1 : 3;
-  c.diffuse_fraction_bits = in_range_or_at_an_end(kMinDiffuseFraction, kMaxDiffuseFraction);
-  c.specular_fraction_bits = in_range_or_at_an_end(kMinSpecularFraction, kMaxSpecularFraction);
-  c.rom_address_bits = in_range_or_at_an_end(kMinRomAddressBits, kMaxRomAddressBits);
-  c.rom_data_bits = in_range_or_at_an_end(kMinRomDataBits, kMaxRomDataBits);
-  c.gate = static_cast<GateSource>(random.integer(0, 2));
-  return c;
-}
-
-MaterialSetup random_material(Random& random, const DatapathConfiguration& c) {
-  MaterialSetup material = {};
-  for (int channel = 0; channel < c.channels; ++channel) {
-    const double ambient = random.uniform(0, 255);
-    material.level[static_cast<std::size_t>(channel)] =
-        std::llround(std::ldexp(ambient + 0.5, c.diffuse_fraction_bits));
-    material.roms.emplace_back(c, random.uniform(0, 1.5), random.uniform(0, 200));
-  }
-  return material;
-}
-
-// From crawling to all over the register, extremes included; bits beyond the width are rubbish.
-SeriesStart random_start(Random& random, int width) {
-  const auto value = [&](int smallest_shift) {
-    switch (random.integer(0, 9)) {
-      case 0:
-        return std::int64_t{1} << (width - 1);  // the most negative
-      case 1:
-        return (std::int64_t{1} << (width - 1)) - 1;  // the most positive
-      default:
-        return random.bits() >> random.integer(smallest_shift, 63);
-    }
-  };
-  return {value(0), value(64 - width), value(64 - width)};
-}
-
-Span random_span(Random& random, const DatapathConfiguration& c, int length) {
-  Span span;
-  span.row = {random.integer(0, 4096 - length), random.integer(0, 4095), length};
-  for (SeriesStart& start : span.diffuse) start = random_start(random, c.diffuse_width());
-  span.gate = random_start(random, c.diffuse_width());
-  span.specular = random_start(random, c.specular_width());
-  return span;
-}
 
 std::vector<std::uint32_t> shade(const PixelDatapath& datapath, const Span& span) {
   std::vector<std::uint32_t> colors(PixelDatapath::padded(span.row.length) + 1, kUntouched);
@@ -84,10 +27,11 @@ std::vector<std::uint32_t> shade(const PixelDatapath& datapath, const Span& span
 
 void expect_same(Random& random, const DatapathConfiguration& c, Evaluation evaluation,
                  int longest) {
-  PixelDatapath stepping(c, Evaluation::stepping), closed_form(c, evaluation);
-  const MaterialSetup material = random_material(random, c);
-  stepping.load_material(material);
-  closed_form.load_material(material);
+  const OutputColor cue_color = random_color(random);
+  PixelDatapath stepping(c, Evaluation::stepping, cue_color), closed_form(c, evaluation, cue_color);
+  const HighlightTable table = random_table(random, c);
+  stepping.load_table(table);
+  closed_form.load_table(table);
   for (int i = 0; i < 12; ++i) {
     const int length = i == 0 ? 1 : i == 1 ? longest : random.integer(1, longest);
     const Span span = random_span(random, c, length);
@@ -96,7 +40,8 @@ void expect_same(Random& random, const DatapathConfiguration& c, Evaluation eval
     for (std::size_t k = 0; k < colors.size(); ++k) {
       ASSERT_EQ(colors[k], expected[k])
           << "pixel " << k << " of " << length << "; " << text(c) << "; specular v "
-          << span.specular.v << " d1 " << span.specular.d1 << " d2 " << span.specular.d2;
+          << span.specular.v << " d1 " << span.specular.d1 << " d2 " << span.specular.d2
+          << "; base " << span.base << ", highlight " << span.highlight;
     }
   }
 }
@@ -116,6 +61,43 @@ TEST(PixelDatapath, PortableEqualsStepping) {
 
 TEST(PixelDatapath, TheBestEvaluationEqualsStepping) {
   expect_stepping(best_evaluation());
+}
+
+// The same with the seed left to chance; rapidcheck prints what replays a failure.
+RC_GTEST_PROP(PixelDatapath, AllEvaluationsAgreeForAnyBlocksAndFlags, ()) {
+  Random random(*rc::gen::noShrink(rc::gen::arbitrary<unsigned>()));
+  const DatapathConfiguration c = random_configuration(random);
+  RC_TAG(std::string(c.diffuse ? "diffuse " : "") + (c.specular ? "specular " : "") +
+         (c.depth_cue ? "depth cueing" : ""));
+  for (const Evaluation evaluation : {Evaluation::portable, best_evaluation()}) {
+    expect_same(random, c, evaluation, 64);
+    RC_ASSERT(!testing::Test::HasFailure());
+  }
+}
+
+// What is left out counts as if it gave nothing.
+TEST(PixelDatapath, EveryCombinationOfBlocksInBothWordSizes) {
+  SCOPED_TRACE(kSeed);
+  Random random(kSeed);
+  for (int blocks = 0; blocks < 8; ++blocks) {
+    for (const GateSource gate : {GateSource::off, GateSource::diffuse, GateSource::series}) {
+      for (const int channels : {1, 3}) {
+        for (const int fraction : {16, 30}) {
+          DatapathConfiguration c;
+          c.diffuse = (blocks & 1) != 0;
+          c.specular = (blocks & 2) != 0;
+          c.depth_cue = (blocks & 4) != 0;
+          if (c.specular && !c.diffuse && gate == GateSource::diffuse) continue;  // illegal
+          c.gate = gate;
+          c.channels = channels;
+          c.diffuse_fraction_bits = fraction;
+          for (const Evaluation evaluation : {Evaluation::portable, best_evaluation()}) {
+            expect_same(random, c, evaluation, 64);
+          }
+        }
+      }
+    }
+  }
 }
 
 TEST(PixelDatapath, EveryGateAndChannelCountInBothWordSizes) {
@@ -146,13 +128,13 @@ class Pixel : public testing::TestWithParam<Evaluation> {
   std::uint32_t color(GateSource gate, double diffuse, double specular, double gate_value) {
     DatapathConfiguration c;
     c.gate = gate;
-    MaterialSetup material = {};
-    material.level[0] = std::llround(20.5 * 65536);
-    material.roms.emplace_back(c, 0.5, 1);  // 127.5 at full scale
+    HighlightTable table;
+    table.roms.emplace_back(c, 0.5, 1);  // 127.5 at full scale
     PixelDatapath datapath(c, GetParam());
-    datapath.load_material(material);
+    datapath.load_table(table);
     Span span;
     span.row = {0, 0, 1};
+    span.level[0] = std::llround(20.5 * 65536);
     span.diffuse[0].v = std::llround(diffuse * 65536);
     span.specular.v = std::llround(specular * (1024 << 12));
     span.gate.v = std::llround(gate_value * 65536);
@@ -180,6 +162,52 @@ TEST_P(Pixel, TheGateSeriesDecidesInPlaceOfTheDiffuse) {
   EXPECT_EQ(color(GateSource::off, -50, 1, -1), 20U + 127U) << "the paper's form";
 }
 
+// 20.5 LSB of level, 100.5 of diffuse light, 64 of highlight; the cue's colour is 40.
+class CuedPixel : public testing::TestWithParam<Evaluation> {
+ protected:
+  std::uint32_t color(double own_share, bool base, bool highlight = true, double diffuse = 100.5) {
+    DatapathConfiguration c;
+    c.depth_cue = true;
+    HighlightTable table;
+    table.roms.emplace_back(c, 0.5, 1);
+    PixelDatapath datapath(c, GetParam(), {40, 0, 0});
+    datapath.load_table(table);
+    Span span;
+    span.row = {0, 0, 1};
+    span.base = base;
+    span.highlight = highlight;
+    span.level[0] = std::llround(20.5 * 65536);
+    span.diffuse[0].v = std::llround(diffuse * 65536);
+    span.specular.v = 512 << 12;
+    span.cue.v = std::llround(std::ldexp(own_share, kCueFraction));
+    return shade(datapath, span)[0];
+  }
+};
+
+TEST_P(CuedPixel, FadesToTheCuesColor) {
+  EXPECT_EQ(color(1, true), 164U);
+  EXPECT_EQ(color(3, true), 164U) << "nearer than near";
+  EXPECT_EQ(color(0.5, true), 102U);
+  EXPECT_EQ(color(0, true), 40U);
+  EXPECT_EQ(color(-2, true), 40U) << "farther than far";
+  EXPECT_EQ(color(0.5, true, true, 400.5), 252U) << "of the unclamped 464";
+}
+
+TEST_P(CuedPixel, OfAFurtherLightFadesToNothing) {
+  EXPECT_EQ(color(1, false), 164U);
+  EXPECT_EQ(color(0.5, false), 82U);
+  EXPECT_EQ(color(0, false), 0U);
+}
+
+TEST_P(CuedPixel, NeedsNoHighlight) {
+  EXPECT_EQ(color(1, true, false), 100U);
+  EXPECT_EQ(color(0.5, true, false), 70U);
+}
+
+INSTANTIATE_TEST_SUITE_P(PixelDatapath, CuedPixel,
+                         testing::Values(Evaluation::stepping, Evaluation::portable,
+                                         best_evaluation()));
+
 INSTANTIATE_TEST_SUITE_P(PixelDatapath, Pixel,
                          testing::Values(Evaluation::stepping, Evaluation::portable,
                                          best_evaluation()));
@@ -188,17 +216,15 @@ INSTANTIATE_TEST_SUITE_P(PixelDatapath, Pixel,
 TEST(PixelDatapath, AnyLitChannelOpensTheHighlight) {
   DatapathConfiguration c;
   c.channels = 3;
-  MaterialSetup material = {};
-  for (std::size_t i = 0; i < 3; ++i) {
-    material.level[i] = 65536 / 2;
-    material.roms.emplace_back(c, 0.5, 0);  // 128, by 8 bits
-  }
+  HighlightTable table;
+  for (int i = 0; i < 3; ++i) table.roms.emplace_back(c, 0.5, 0);  // 128, by 8 bits
   for (const Evaluation evaluation :
        {Evaluation::stepping, Evaluation::portable, best_evaluation()}) {
     PixelDatapath datapath(c, evaluation);
-    datapath.load_material(material);
+    datapath.load_table(table);
     Span span;
     span.row = {0, 0, 1};
+    span.level.fill(65536 / 2);
     for (SeriesStart& start : span.diffuse) start.v = 0;
     EXPECT_EQ(shade(datapath, span)[0], 0U);
     span.diffuse[2].v = 10 * 65536 + 65536 / 2;

@@ -71,6 +71,7 @@ inline ScreenTriangle random_triangle(Random& random, const Image& image, double
       vertex.x = snap(x + random.uniform(-size, size));
       vertex.y = snap(y + random.uniform(-size, size));
       vertex.z = random.uniform(0, 1);
+      vertex.position = Vec3(0, 0, -vertex.z);  // 5 to 6 before the default camera
       vertex.normal = random.unit_near(axis, 30);
       vertex.eye = random.unit_near(Vec3(0, 0, 1), 20) * random.uniform(2, 4);
     }

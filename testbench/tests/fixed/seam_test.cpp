@@ -70,7 +70,9 @@ Seams largest_seams(SeriesFit fit, Anchor anchor, Viewer viewer) {
     const FrameSetup frame(scene, neighbours.geometry, configuration, 24);
     const FrontEnd front_end(frame, neighbours.geometry);
     std::array<TriangleWork, 2> work;
-    EXPECT_TRUE(front_end.set_up(0, work[0]) && front_end.set_up(1, work[1]));
+    for (std::uint32_t t = 0; t < 2; ++t) {
+      EXPECT_EQ(front_end.set_up(t, 0, work[t]), SetupOutcome::ready);
+    }
     const int dropped = setup_fraction_bits(configuration, 0);
     largest.diffuse = std::max(
         largest.diffuse, largest_seam(neighbours, work, dropped,

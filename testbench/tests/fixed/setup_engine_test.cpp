@@ -31,6 +31,13 @@ void expect_rounded(const FixedQuadratic& fixed, const Quadratic<double>& real, 
   }
 }
 
+void expect_rounded(const FixedLinear& fixed, const Linear<double>& real, int fraction_bits,
+                    const std::string& what) {
+  expect_rounded(fixed.c, real.c, fraction_bits, what);
+  expect_rounded(fixed.a, real.a, fraction_bits, what + " along x");
+  expect_rounded(fixed.b, real.b, fraction_bits, what + " along y");
+}
+
 TEST(SetupEngine, RoundsEachCoefficientToNearest) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
@@ -38,10 +45,12 @@ TEST(SetupEngine, RoundsEachCoefficientToNearest) {
     for (const Viewer viewer : {Viewer::infinite, Viewer::local}) {
       Scene scene = lit_scene(200, 200);
       scene.shading.viewer = viewer;
+      scene.depth_cue = DepthCue{5.2, 5.7, Color::Zero()};
       const Geometry geometry = random_geometry(random, scene, 100, 30);
       DatapathConfiguration configuration;
       configuration.channels = 3;
       configuration.gate = GateSource::series;
+      configuration.depth_cue = true;
       configuration.anchor = anchor;
       configuration.diffuse_fraction_bits = random.integer(4, 30);
       configuration.specular_fraction_bits = random.integer(1, 25);
@@ -51,25 +60,25 @@ TEST(SetupEngine, RoundsEachCoefficientToNearest) {
       const int diffuse_bits = configuration.diffuse_fraction_bits + extra;
       for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
         const int x = random.integer(0, 199), y = random.integer(0, 199);
-        const TriangleCoefficients<double> real = engine.coefficients(i, x, y);
-        TriangleSetup setup = engine.set_up(i, x, y);
+        const TriangleCoefficients<double> real = engine.coefficients(i, 0, x, y);
+        TriangleSetup setup = engine.set_up(i, 0, x, y, 1);
         EXPECT_FALSE(setup.overflow);
         EXPECT_EQ(setup.x, x);
         EXPECT_EQ(setup.y, y);
         EXPECT_EQ(setup.triangle, i);
-        EXPECT_EQ(setup.material, geometry.triangles[i].material);
+        EXPECT_EQ(setup.pass, 0U);
+        EXPECT_EQ(setup.material, &frame.material(0, geometry.triangles[i].material));
         const std::string which = "triangle " + std::to_string(i);
         for (std::size_t c = 0; c < 3; ++c) {
           // The level is folded into T0, after rounding.
-          setup.diffuse[c].t0 -= frame.materials[setup.material].level[c] << extra;
+          setup.diffuse[c].t0 -= setup.material->level[c] << extra;
           expect_rounded(setup.diffuse[c], real.diffuse[c], diffuse_bits, which + " diffuse");
         }
         expect_rounded(setup.gate, real.gate, diffuse_bits, which + " gate");
         expect_rounded(setup.specular, real.specular, configuration.specular_fraction_bits + extra,
                        which + " specular");
-        expect_rounded(setup.depth, real.depth.c, 16, which + " depth");
-        expect_rounded(setup.depth_x, real.depth.a, 16, which + " depth along x");
-        expect_rounded(setup.depth_y, real.depth.b, 16, which + " depth along y");
+        expect_rounded(setup.depth, real.depth, 16, which + " depth");
+        expect_rounded(setup.own_share, real.own_share, kCueFraction + extra, which + " share");
       }
     }
   }
@@ -93,8 +102,8 @@ TEST(SetupEngine, ScalesSeriesToTheirOutputs) {
   DatapathConfiguration configuration;
   configuration.anchor = Anchor::triangle;
   configuration.gate = GateSource::series;
-  const FrameSetup frame(scene, geometry, configuration, 24);
-  const TriangleSetup setup = SetupEngine(frame, geometry).set_up(0, 4, 5);
+  const FrameSetup frame(scene, geometry, configuration, 24, Effects::all);  // depth included
+  const TriangleSetup setup = SetupEngine(frame, geometry).set_up(0, 0, 4, 5, 1);
   // 255·(0.5 + 0.1) + ½ output LSB; a whole table; 255 LSB.
   EXPECT_EQ(setup.diffuse[0].t0, std::llround(127.5 * 65536) + std::llround(26.0 * 65536));
   EXPECT_EQ(setup.specular.t0, 1024 << 12);
@@ -103,9 +112,9 @@ TEST(SetupEngine, ScalesSeriesToTheirOutputs) {
     for (const std::int64_t coefficient : {t.t1, t.t2, t.t3, t.t4, t.t5}) EXPECT_EQ(coefficient, 0);
   }
   // Depth runs from 0 at x = 0 to 2^24 − 1 at x = 32; the centre of pixel 4 is at 4.5.
-  expect_rounded(setup.depth, 16777215 * 4.5 / 32, 16, "depth");
-  expect_rounded(setup.depth_x, 16777215 / 32.0, 16, "depth along x");
-  EXPECT_EQ(setup.depth_y, 0);
+  expect_rounded(setup.depth.c, 16777215 * 4.5 / 32, 16, "depth");
+  expect_rounded(setup.depth.a, 16777215 / 32.0, 16, "depth along x");
+  EXPECT_EQ(setup.depth.b, 0);
 }
 
 // Corners at the centres of pixels 0 and 8 of line 0, with these normals; so the normal at pixel
@@ -128,7 +137,7 @@ TriangleSetup set_up_between(const Vec3& left, const Vec3& right,
   DatapathConfiguration configuration;
   configuration.series_fit = fit;
   const FrameSetup frame(scene, geometry, configuration, 24);
-  return SetupEngine(frame, geometry).set_up(0, 4, 0);
+  return SetupEngine(frame, geometry).set_up(0, 0, 4, 0, 1);
 }
 
 TEST(SetupEngine, ReportsOpposedNormals) {

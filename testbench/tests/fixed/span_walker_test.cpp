@@ -7,7 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "testbench/tests/fixed/random_frame.h"
+#include "model/fixed/front_end.h"
+#include "testbench/tests/fixed/random_effects.h"
 
 namespace phongpipe {
 namespace {
@@ -60,22 +61,28 @@ TEST(SpanWalker, StartsAreExactFromTheRoundedCoefficients) {
     DatapathConfiguration configuration;
     configuration.channels = 3;
     configuration.gate = GateSource::series;
+    configuration.depth_cue = true;
     configuration.anchor = anchor;
     const SpanWalker walker(frame_of(configuration));
     const int dropped = anchor == Anchor::span ? kSetupExtraBits : 0;
+    MaterialSetup material = {};
+    material.level = {11, 12, 13};
+    material.table = 3;
     for (int i = 0; i < 500; ++i) {
       TriangleSetup setup;
       setup.x = random.integer(0, 4095);
       setup.y = random.integer(0, 4095);
       setup.triangle = 17;
-      setup.material = 3;
+      setup.pass = static_cast<std::uint32_t>(i % 2);
+      setup.material = &material;
+      setup.plan.gate_series = setup.plan.depth_cue = true;
       const RowSpan row = {random.integer(0, 4000), random.integer(0, 4095), random.integer(1, 96)};
       for (FixedQuadratic& t : setup.diffuse) t = random_series(random, 0x1p44, 4096);
       setup.specular = random_series(random, 0x1p44, 4096);
       setup.gate = random_series(random, 0x1p44, 4096);
-      setup.depth = random.integer(0, 1 << 30);
-      setup.depth_x = random.integer(-(1 << 24), 1 << 24);
-      setup.depth_y = random.integer(-(1 << 24), 1 << 24);
+      const auto slope = [&random] { return random.integer(-(1 << 24), 1 << 24); };
+      setup.depth = {random.integer(0, 1 << 30), slope(), slope()};
+      setup.own_share = {random.integer(0, 1 << 30), slope(), slope()};
       const Span span = walker.start(setup, row);
       const int x = row.x - setup.x, y = row.y - setup.y;
       for (std::size_t c = 0; c < 3; ++c) {
@@ -83,13 +90,19 @@ TEST(SpanWalker, StartsAreExactFromTheRoundedCoefficients) {
       }
       expect_starts(span.specular, exact_starts(setup.specular, x, y, dropped));
       expect_starts(span.gate, exact_starts(setup.gate, x, y, dropped));
-      EXPECT_EQ(span.depth, setup.depth + setup.depth_x * x + setup.depth_y * y);
-      EXPECT_EQ(span.depth_step, setup.depth_x);
+      EXPECT_EQ(span.depth, setup.depth.c + setup.depth.a * x + setup.depth.b * y);
+      EXPECT_EQ(span.depth_step, setup.depth.a);
+      const auto& [share, share_x, share_y] = setup.own_share;
+      expect_starts(span.cue,
+                    {rounded(Wide{share} + Wide{share_x} * x + Wide{share_y} * y, dropped),
+                     rounded(share_x, dropped), 0});
       EXPECT_EQ(span.row.x, row.x);
       EXPECT_EQ(span.row.y, row.y);
       EXPECT_EQ(span.row.length, row.length);
       EXPECT_EQ(span.triangle, 17U);
-      EXPECT_EQ(span.material, 3U);
+      EXPECT_EQ(span.base, i % 2 == 0);
+      EXPECT_EQ(span.table, 3U);
+      EXPECT_EQ(span.level, material.level);
       if (HasFailure()) FAIL() << "case " << i << ", x " << x << ", y " << y;
     }
   }
@@ -176,20 +189,59 @@ TEST(SpanWalker, LooksAtEverySeriesInUse) {
   DatapathConfiguration configuration;
   configuration.channels = 3;
   configuration.gate = GateSource::series;
+  configuration.depth_cue = true;
   const SpanWalker walker(frame_of(configuration));
   const RowSpan row = {0, 0, 5};
-  EXPECT_TRUE(walker.fits(TriangleSetup(), row));
-  const FixedQuadratic large = {std::int64_t{1} << 50, 0, 0, 0, 0, 0};
-  for (int series = 0; series < 5; ++series) {
+  const auto everything = [] {
     TriangleSetup setup;
+    setup.plan.gate_series = setup.plan.depth_cue = true;
+    return setup;
+  };
+  EXPECT_TRUE(walker.fits(everything(), row));
+  const FixedQuadratic large = {std::int64_t{1} << 54, 0, 0, 0, 0, 0};
+  for (int series = 0; series < 6; ++series) {
+    TriangleSetup setup = everything();
     if (series < 3) setup.diffuse[static_cast<std::size_t>(series)] = large;
     if (series == 3) setup.gate = large;
     if (series == 4) setup.specular = large;
+    if (series == 5) setup.own_share.c = large.t0;
     EXPECT_FALSE(walker.fits(setup, row)) << "series " << series;
     // What is not in use does not count.
+    setup.plan.gate_series = setup.plan.specular = setup.plan.depth_cue = false;
     const SpanWalker grey(frame_of(DatapathConfiguration()));
-    EXPECT_EQ(grey.fits(setup, row), series == 1 || series == 2 || series == 3)
-        << "series " << series;
+    EXPECT_EQ(grey.fits(setup, row), series != 0) << "series " << series;
+  }
+}
+
+// The datapath may hold the registers of what is not stepped, and take the level for the light
+// where there is no diffuse series.
+TEST(SpanWalker, WhatIsNotSteppedHasNoDifferences) {
+  const auto expect_still = [](const SeriesStart& start) {
+    EXPECT_EQ(start.d1, 0);
+    EXPECT_EQ(start.d2, 0);
+  };
+  for (unsigned seed = kSeed; seed < kSeed + 200; ++seed) {
+    Random random(seed);
+    const RandomEffects e = random_effects(random);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));
+    const FrameSetup frame(e.scene, e.geometry, suit_scene(e.configuration, e.scene, e.geometry),
+                           24);
+    const FrontEnd front_end(frame, e.geometry);
+    TriangleWork work;
+    for (TriangleOrder next(front_end); !next.done(); next.advance()) {
+      if (front_end.set_up(next.triangle(), next.pass(), work) != SetupOutcome::ready) continue;
+      const Span span = front_end.span_walker().start(work.setup, work.rows.back());
+      EXPECT_EQ(span.base, next.pass() == 0);
+      for (std::size_t c = 0; c < 3 && !span.step_diffuse; ++c) expect_still(span.diffuse[c]);
+      if (!span.step_diffuse) expect_still(span.gate);
+      if (!span.step_specular) expect_still(span.specular);
+      EXPECT_LE(span.highlight, frame.configuration.specular);
+      EXPECT_LE(span.step_specular, frame.configuration.specular);
+      for (std::size_t c = 0; c < 3 && !frame.configuration.diffuse; ++c) {
+        EXPECT_EQ(span.diffuse[c].v, span.level[c]);
+      }
+    }
+    if (HasFailure()) return;
   }
 }
 

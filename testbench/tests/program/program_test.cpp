@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,8 @@ class Program : public ::testing::Test {
  protected:
   Program() : folder_(fs::path(::testing::TempDir()) / fmt::format("phongpipe-{}", getpid())) {
     fs::create_directories(folder_);
+    // Not the user's; and kept, so that only the first run builds the RTL.
+    setenv("XDG_CACHE_HOME", PHONGPIPE_RTL_CACHE, 1);
   }
   ~Program() override { fs::remove_all(folder_); }
 
@@ -105,6 +108,10 @@ TEST_F(Program, VerifyWritesEveryKeyAndThreePictures) {
                           "/ns_per_pixel/datapath",
                           "/ns_per_pixel/frame",
                           "/budget_ns",
+                          "/effects/used",
+                          "/effects/left_out",
+                          "/effects/built",
+                          "/effects/everything",
                           "/within_budget",
                           "/accuracy/max_lsb",
                           "/accuracy/rms_lsb",
@@ -118,6 +125,110 @@ TEST_F(Program, VerifyWritesEveryKeyAndThreePictures) {
   }
   for (const char* picture : {"sphere-result.png", "sphere-exact.png", "sphere-error.png"}) {
     EXPECT_EQ(read_whole_file(file(picture)).substr(1, 3), "PNG") << picture;
+  }
+}
+
+// Two lights, colour, a depth cue and materials of which one is matt.
+constexpr const char* kEffectsScene = R"([image]
+width = 96
+height = 64
+background = [0.1, 0.2, 0.3]
+[camera]
+projection = "perspective"
+eye = [0, 1, 5]
+target = [0, 0, 0]
+vertical_fov_degrees = 30
+[[light]]
+type = "directional"
+direction = [-1, -1, -1]
+color = [1, 0.8, 0.6]
+[[light]]
+type = "directional"
+direction = [1, -0.5, -1]
+color = [0, 0.3, 0.6]
+[depth_cue]
+near = 4
+far = 6
+color = [0.1, 0.2, 0.3]
+[[object]]
+primitive = "torus"
+material = "shiny"
+[[object]]
+primitive = "sphere"
+scale = 0.4
+material = "matt"
+[material.shiny]
+ambient = 0.1
+diffuse = [0.6, 0.5, 0.4]
+specular = 0.3
+shininess = 20
+[material.matt]
+ambient = 0.1
+diffuse = 0.7
+specular = 0
+shininess = 20
+)";
+
+TEST_F(Program, VerifiesSeveralLightsAndDepthCueing) {
+  const std::string scene = write("effects.toml", kEffectsScene);
+  for (const std::vector<std::string>& more : {std::vector<std::string>{},
+                                               {"--detail", "cycle"},
+                                               {"--stall", "30", "--seed", "5"},
+                                               {"--effects", "all"},
+                                               {"--set", "specular_gate=off"}}) {
+    // A small picture has few pixels to spread the triangles' setup over.
+    std::vector<std::string> arguments = {"verify", scene,    "--budget",
+                                          "2000",   "--json", file("r.json")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProcessOutput output = run(arguments);
+    EXPECT_EQ(output.status, 0) << output.text;
+    const nlohmann::json result = json("r.json");
+    EXPECT_EQ(result["mismatches"]["model_rtl"], 0);
+    EXPECT_EQ(result["mismatches"]["model_systemc"], 0);
+    EXPECT_EQ(result["cycles"]["difference"], 0);
+    const nlohmann::json& used = result["effects"]["used"];
+    for (const char* effect : {"2 lights in passes", "depth cueing", "depth test", "colour"}) {
+      EXPECT_EQ(std::count(used.begin(), used.end(), effect), 1) << effect << " of " << used;
+    }
+  }
+}
+
+TEST_F(Program, VerifyTellsWhatTheSceneNeedsAndWhatThatSaves) {
+  const ProcessOutput output = run({"verify", "sphere", "--json", file("r.json")});
+  ASSERT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(output.text.find("0 pixels differ from everything's"), std::string::npos)
+      << output.text;
+  const nlohmann::json effects = json("r.json")["effects"];
+  const auto holds = [&effects](const char* list, const char* effect) {
+    return std::count(effects[list].begin(), effects[list].end(), effect) == 1;
+  };
+  EXPECT_TRUE(holds("used", "diffuse light")) << effects;
+  EXPECT_TRUE(holds("left_out", "depth cueing")) << effects;
+  EXPECT_TRUE(holds("left_out", "colour")) << effects;
+  const nlohmann::json &built = effects["built"], &everything = effects["everything"];
+  EXPECT_EQ(everything["frame_mismatches"], 0);
+  for (const char* less :
+       {"setup_operations", "pixel_operations", "adders", "multipliers", "rom_bits"}) {
+    EXPECT_LT(built[less], everything[less]) << less;
+  }
+  EXPECT_LE(built["frame_cycles"], everything["frame_cycles"]);
+  EXPECT_LT(built["modules"].size(), everything["modules"].size());
+  EXPECT_TRUE(built.contains("simulation_seconds"));
+}
+
+TEST_F(Program, VerifyBuildsEverythingWhereAskedTo) {
+  const ProcessOutput output =
+      run({"verify", "sphere", "--effects", "all", "--budget", "1000", "--json", file("r.json")});
+  EXPECT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(output.text.find("everything is built and simulated"), std::string::npos)
+      << output.text;
+  const nlohmann::json all = json("r.json")["effects"];
+  EXPECT_FALSE(all.contains("everything")) << "there is no more to compare it with";
+  ASSERT_EQ(run({"verify", "sphere", "--effects", "scene", "--json", file("r.json")}).status, 0);
+  const nlohmann::json compared = json("r.json")["effects"]["everything"];
+  for (const char* same : {"frame_cycles", "setup_operations", "pixel_operations", "adders",
+                           "multipliers", "rom_bits", "modules"}) {
+    EXPECT_EQ(all["built"][same], compared[same]) << same;
   }
 }
 
@@ -193,15 +304,18 @@ TEST_F(Program, RenderWritesPngPfmAndTriangles) {
   EXPECT_EQ(run({"render", "sphere", "--arithmetic", "real", "-o", file("b.png")}).status, 0);
 }
 
-TEST_F(Program, PhongRendersWhatThePipelineDoesNotSimulateYet) {
-  const std::string text = read_whole_file(fs::path(PHONGPIPE_SCENES) / "sphere.toml");
-  const std::string scene =
-      write("two.toml", text + "\n[[light]]\ntype = \"point\"\nposition = [3, 3, 3]\n");
+TEST_F(Program, PhongRendersWhatThePipelineRefuses) {
+  std::string text = read_whole_file(fs::path(PHONGPIPE_SCENES) / "sphere.toml");
+  text.replace(text.find("shininess"), 0, "shininess = 0 # ");
+  const std::string scene = write(
+      "blunt.toml",
+      text + "\n[[light]]\ntype = \"point\"\nposition = [3, 3, 3]\nattenuation = [1, 0, 1]\n");
   EXPECT_EQ(run({"render", scene, "--method", "phong", "-o", file("a.png")}).status, 0);
   fs::remove(file("a.png"));
-  expect_refused({"render", scene, "-o", file("b.png")}, "several lights are not simulated yet");
+  expect_refused({"render", scene, "-o", file("b.png")},
+                 "a shininess of 0 under a light that fades");
   expect_refused({"verify", scene, "--out", file("pictures")},
-                 "two.toml: several lights are not simulated yet");
+                 "blunt.toml: material grey: a shininess of 0 under a light that fades");
 }
 
 TEST_F(Program, CompareWritesAPageTablesAndCurves) {
@@ -269,6 +383,7 @@ TEST_F(Program, BadUsageIsOneLineAndTwo) {
   expect_refused({"verify", "sphere", "--budget", "-3"}, "--budget");
   expect_refused({"verify", "sphere", "--stall", "101"}, "--stall");
   expect_refused({"verify", "sphere", "--rtl", "/nosuch"}, "--rtl");
+  expect_refused({"verify", "sphere", "--effects", "nonsense"}, "--effects");
   expect_refused({"render", "sphere"}, "nothing to write");
   expect_refused({"render", "sphere", "-o", file("a.jpg")}, ".png or .pfm");
   expect_refused({"render", "sphere", "-o", "/nosuch/a.png"}, "cannot be written");

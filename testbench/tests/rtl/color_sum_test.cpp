@@ -49,14 +49,26 @@ class ColorSumRtl : public ::testing::Test {
       configuration.diffuse_fraction_bits = kDiffuseWidth - 10;
       configuration.rom_data_bits = bits;
       const auto word = static_cast<std::int32_t>(in.word & ((1U << bits) - 1));
-      const int expected =
-          color_sum(configuration, clamped_diffuse(configuration, in.diffuse, in.level),
-                    in.open ? aligned_word(configuration, word) : 0);
-      const int first = (bits - kMinRomDataBits) * 8;
-      ASSERT_EQ(static_cast<int>(rtl_.colors[first / 32] >> (first % 32) & 0xff), expected)
-          << bits << " bits, diffuse " << in.diffuse << ", level " << in.level << ", word " << word
-          << ", open " << in.open;
+      const std::int32_t clamped = clamped_diffuse(configuration, in.diffuse, in.level);
+      const std::int32_t addend = in.open ? aligned_word(configuration, word) : 0;
+      const auto show = [&] {
+        return testing::Message() << bits << " bits, diffuse " << in.diffuse << ", level "
+                                  << in.level << ", word " << word << ", open " << in.open;
+      };
+      const int place = bits - kMinRomDataBits;
+      ASSERT_EQ(bits_of(rtl_.colors, 8 * place, 8), color_sum(configuration, clamped, addend))
+          << show();
+      ASSERT_EQ(bits_of(rtl_.sums, 10 * place, 10), light_sum(configuration, clamped, addend))
+          << show();
     }
+  }
+  template <typename Port>
+  static int bits_of(const Port& port, int first, int count) {
+    int value = 0;
+    for (int bit = first + count; bit-- > first;) {
+      value = 2 * value + static_cast<int>(port[bit / 32] >> (bit % 32) & 1);
+    }
+    return value;
   }
 
   Vcolor_sum_words rtl_;

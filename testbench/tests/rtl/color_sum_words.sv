@@ -7,7 +7,8 @@ module color_sum_words (
     input  logic        highlight_open,
     input  logic [11:0] word,
     output logic        lit,
-    output logic [71:0] colors  // 8 bits each, the narrowest word in the low bits
+    output logic [89:0] sums,   // 10 bits each, the narrowest word in the low bits
+    output logic [71:0] colors  // 8 bits each
 );
   logic [8:0] lits;
   for (genvar bits = 4; bits <= 12; bits++) begin : width
@@ -22,6 +23,7 @@ module color_sum_words (
         .lit(lits[bits-4]),
         .highlight_open,
         .word(word[bits-1:0]),
+        .sum(sums[(bits-4)*10+:10]),
         .color(colors[(bits-4)*8+:8])
     );
   end

@@ -8,6 +8,7 @@
 
 #include "sim/datapath_pipeline.h"
 #include "testbench/rtl/rtl_library.h"
+#include "testbench/tests/fixed/random_datapath.h"
 
 namespace phongpipe {
 namespace {
@@ -30,7 +31,15 @@ DatapathConfiguration configured(int channels, int diffuse, int specular, int ad
   return c;
 }
 
-// The presets, and the corners of every parameter.
+DatapathConfiguration of_blocks(DatapathConfiguration c, bool diffuse, bool specular,
+                                bool depth_cue) {
+  c.diffuse = diffuse;
+  c.specular = specular;
+  c.depth_cue = depth_cue;
+  return c;
+}
+
+// The presets, the corners of every parameter, and every combination of blocks.
 std::vector<DatapathConfiguration> configurations() {
   return {configured(1, 16, 12, 10, 8, GateSource::diffuse),
           configured(3, 16, 12, 10, 8, GateSource::diffuse),
@@ -38,61 +47,44 @@ std::vector<DatapathConfiguration> configurations() {
           configured(1, 4, 1, 6, 4, GateSource::off),
           configured(3, 4, 25, 13, 12, GateSource::series),
           configured(1, 30, 25, 13, 12, GateSource::series),
-          configured(3, 30, 1, 6, 9, GateSource::off)};
+          configured(3, 30, 1, 6, 9, GateSource::off),
+          of_blocks(configured(1, 16, 12, 10, 8, GateSource::diffuse), true, false, false),
+          of_blocks(configured(3, 16, 12, 10, 8, GateSource::series), true, false, true),
+          of_blocks(configured(1, 16, 12, 10, 8, GateSource::series), false, true, false),
+          of_blocks(configured(3, 30, 12, 10, 10, GateSource::series), false, true, true),
+          of_blocks(configured(3, 16, 12, 10, 4, GateSource::off), false, true, true),
+          of_blocks(configured(3, 16, 12, 10, 8, GateSource::off), false, false, false),
+          of_blocks(configured(1, 16, 12, 10, 8, GateSource::diffuse), false, false, true),
+          of_blocks(configured(3, 16, 12, 10, 8, GateSource::diffuse), true, true, true),
+          of_blocks(configured(1, 30, 25, 13, 12, GateSource::series), true, true, true),
+          of_blocks(configured(1, 4, 1, 6, 12, GateSource::off), true, true, true)};
 }
 
 std::string name_of(const DatapathConfiguration& c) {
-  return fmt::format("c{}_d{}_s{}_a{}_w{}_g{}", c.channels, c.diffuse_fraction_bits,
+  return fmt::format("c{}_d{}_s{}_a{}_w{}_g{}{}{}{}", c.channels, c.diffuse_fraction_bits,
                      c.specular_fraction_bits, c.rom_address_bits, c.rom_data_bits,
-                     static_cast<int>(c.gate));
+                     static_cast<int>(c.gate), c.diffuse ? "" : "_no_diffuse",
+                     c.specular ? "" : "_no_specular", c.depth_cue ? "_depth_cue" : "");
 }
 
 class SpanSource {
  public:
   SpanSource(const DatapathConfiguration& configuration, unsigned seed)
-      : configuration_(configuration), random_(seed) {
-    for (std::size_t c = 0; c < static_cast<std::size_t>(configuration.channels); ++c) {
-      const std::int64_t scale = std::int64_t{1} << configuration.diffuse_fraction_bits;
-      material_.level[c] = (static_cast<std::int64_t>(random_()) & 0x7f) * scale + scale / 2;
-      material_.roms.emplace_back(configuration, 0.9 - 0.2 * static_cast<double>(c), 8);
-    }
-  }
-  const MaterialSetup& material() const { return material_; }
-
+      : configuration_(configuration),
+        random_(seed),
+        table_(random_table(random_, configuration)) {}
+  const HighlightTable& table() const { return table_; }
   Span next(int longest) {
-    Span span;
-    span.row = {static_cast<int>(random_() % 1000), static_cast<int>(random_() % 4096),
-                1 + static_cast<int>(random_() % static_cast<unsigned>(longest))};
-    for (SeriesStart& series : span.diffuse) series = start(configuration_.diffuse_width());
-    span.specular = start(configuration_.specular_width());
-    span.gate = start(configuration_.diffuse_width());
-    return span;
+    return random_span(random_, configuration_, random_.integer(1, longest));
   }
 
  private:
-  // The ends of the format, values beside zero, slow slopes, and anything.
-  std::int64_t value(int width) {
-    const std::int64_t top = (std::int64_t{1} << (width - 1)) - 1;
-    const auto any = static_cast<std::int64_t>(random_());
-    switch (random_() % 6) {
-      case 0:
-        return top;
-      case 1:
-        return -top - 1;
-      case 2:
-        return any % 3;
-      case 3:
-        return any % (top / 256 + 1);
-      default:
-        return wrap_to(any, width);
-    }
-  }
-  SeriesStart start(int width) { return {value(width), value(width), value(width)}; }
-
   DatapathConfiguration configuration_;
-  std::mt19937_64 random_;
-  MaterialSetup material_;
+  Random random_;
+  HighlightTable table_;
 };
+
+const OutputColor kCueColor = {200, 7, 99};
 
 class PixelDatapathRtl : public ::testing::TestWithParam<DatapathConfiguration> {
  protected:
@@ -104,16 +96,16 @@ TEST_P(PixelDatapathRtl, ValuesEqualTheModelOnRandomSpans) {
   constexpr unsigned kSeed = 22;
   SCOPED_TRACE(fmt::format("seed {}", kSeed));
   SpanSource source(GetParam(), kSeed);
-  RtlDatapath rtl(library_);
-  rtl.load_material(source.material());
-  PixelDatapath model(GetParam(), Evaluation::stepping);
-  model.load_material(source.material());
+  RtlDatapath rtl(library_, kCueColor);
+  rtl.load_table(source.table());
+  PixelDatapath model(GetParam(), Evaluation::stepping, kCueColor);
+  model.load_table(source.table());
 
   std::vector<RtlSpan> spans;
   std::vector<ShadedPixel> expected;
   for (int s = 0; s < 2000; ++s) {
     const Span span = source.next(s % 100 == 0 ? 3000 : 40);
-    spans.push_back(to_rtl(span, source.material()));
+    spans.push_back(to_rtl(span));
     std::vector<std::uint32_t> colors(PixelDatapath::padded(span.row.length));
     model.shade(span, colors.data());
     for (int i = 0; i < span.row.length; ++i) {
@@ -123,10 +115,10 @@ TEST_P(PixelDatapathRtl, ValuesEqualTheModelOnRandomSpans) {
     }
   }
   std::vector<RtlPixel> pixels(expected.size());
-  const std::uint64_t clocks =
-      library_.interface().run(rtl.rtl(), spans.data(), spans.size(), pixels.data());
+  const std::uint64_t clocks = library_.interface().run(rtl.rtl(), kCueColor.data(), spans.data(),
+                                                        spans.size(), pixels.data());
   // One pixel a clock, no bubbles between spans, and the latency once.
-  EXPECT_EQ(clocks, expected.size() + kDatapathLatency);
+  EXPECT_EQ(clocks, expected.size() + static_cast<std::size_t>(GetParam().latency()));
   for (std::size_t i = 0; i < expected.size(); ++i) {
     ASSERT_EQ(pixels[i].color, expected[i].color) << "pixel " << i;
     ASSERT_EQ(pixels[i].x, expected[i].x) << "pixel " << i;
@@ -139,16 +131,15 @@ TEST_P(PixelDatapathRtl, EveryClockEqualsSystemCUnderRandomStallsAndResets) {
   SCOPED_TRACE(fmt::format("seed {}", kSeed));
   SpanSource source(GetParam(), kSeed);
   std::mt19937 random(kSeed);
-  RtlDatapath rtl(library_);
-  DatapathPipeline systemc(GetParam());
+  RtlDatapath rtl(library_, kCueColor);
+  DatapathPipeline systemc(GetParam(), kCueColor);
   DatapathInputs inputs;
-  inputs.material = &source.material();
-  inputs.rom_write = true;
+  inputs.table = &source.table();
   for (; inputs.rom_address < GetParam().rom_words(); ++inputs.rom_address) {
     rtl.clock(inputs);
     systemc.clock(inputs);
   }
-  inputs.rom_write = false;
+  inputs.table = nullptr;
 
   Span span;
   std::uint64_t pixels = 0;
@@ -181,15 +172,14 @@ TEST_P(PixelDatapathRtl, EveryClockEqualsSystemCUnderRandomStallsAndResets) {
 
 TEST_P(PixelDatapathRtl, FirstPixelTakesExactlyTheLatency) {
   SpanSource source(GetParam(), 24);
-  RtlDatapath rtl(library_);
+  RtlDatapath rtl(library_, kCueColor);
   const Span span = source.next(1);
   DatapathInputs inputs;
-  inputs.material = &source.material();
   inputs.span = &span;
   inputs.pixel_ready = true;
   ASSERT_TRUE(rtl.clock(inputs).span_ready);
   inputs.span = nullptr;
-  for (int clock = 1; clock < kDatapathLatency; ++clock) {
+  for (int clock = 1; clock < GetParam().latency(); ++clock) {
     EXPECT_FALSE(rtl.clock(inputs).pixel_valid) << "clock " << clock;
   }
   EXPECT_TRUE(rtl.clock(inputs).pixel_valid);
@@ -198,10 +188,9 @@ TEST_P(PixelDatapathRtl, FirstPixelTakesExactlyTheLatency) {
 
 TEST_P(PixelDatapathRtl, ResetDropsPixelsInFlightAndKeepsTheTable) {
   SpanSource source(GetParam(), 25);
-  RtlDatapath rtl(library_);
-  rtl.load_material(source.material());
+  RtlDatapath rtl(library_, kCueColor);
+  rtl.load_table(source.table());
   DatapathInputs inputs;
-  inputs.material = &source.material();
   const Span span = source.next(40);
   inputs.span = &span;
   rtl.clock(inputs);
@@ -210,13 +199,13 @@ TEST_P(PixelDatapathRtl, ResetDropsPixelsInFlightAndKeepsTheTable) {
   inputs.pixel_ready = true;
   for (int clock = 0; clock < 60; ++clock) ASSERT_FALSE(rtl.clock(inputs).pixel_valid);
 
-  PixelDatapath model(GetParam(), Evaluation::stepping);
-  model.load_material(source.material());
+  PixelDatapath model(GetParam(), Evaluation::stepping, kCueColor);
+  model.load_table(source.table());
   std::vector<std::uint32_t> colors(PixelDatapath::padded(span.row.length));
   model.shade(span, colors.data());
   std::vector<RtlPixel> pixels(static_cast<std::size_t>(span.row.length));
-  const RtlSpan again = to_rtl(span, source.material());
-  library_.interface().run(rtl.rtl(), &again, 1, pixels.data());
+  const RtlSpan again = to_rtl(span);
+  library_.interface().run(rtl.rtl(), kCueColor.data(), &again, 1, pixels.data());
   for (std::size_t i = 0; i < pixels.size(); ++i) ASSERT_EQ(pixels[i].color, colors[i]) << i;
 }
 

@@ -107,6 +107,37 @@ TEST(Geometry, LightVectors) {
   EXPECT_EQ(light_vector(light, vertex), Vec3(0, 0, 4));
 }
 
+// Along the view, not along the line of sight, and the same for both kinds of camera.
+TEST(Geometry, ViewDistanceIsAlongTheView) {
+  Scene scene = sphere_scene();
+  scene.camera.eye = Vec3(1, 2, 3);
+  scene.camera.target = Vec3(1, 2, -7);
+  ScreenVertex vertex;
+  vertex.position = Vec3(5, -9, -1);
+  vertex.z = 0.25;
+  for (const Projection projection : {Projection::perspective, Projection::orthographic}) {
+    scene.camera.projection = projection;
+    EXPECT_DOUBLE_EQ(view_distance(scene, vertex), 4);
+  }
+  scene.camera.target = Vec3(4, -2, 3);  // along (0.6, -0.8, 0)
+  EXPECT_DOUBLE_EQ(view_distance(scene, vertex), 4 * 0.6 + 11 * 0.8);
+  scene.objects[0].source = Object::Source::triangle_file;
+  EXPECT_EQ(view_distance(scene, vertex), 0.25) << "screen space has no world but its z";
+}
+
+TEST(Geometry, ViewDistanceOfAnOrthographicCameraIsItsDepth) {
+  Scene scene = sphere_scene();
+  scene.camera.projection = Projection::orthographic;
+  scene.camera.eye = Vec3(2, 3, 4);
+  const Geometry geometry = make_geometry(scene);
+  ASSERT_FALSE(geometry.triangles.empty());
+  for (const ScreenTriangle& triangle : geometry.triangles) {
+    // Sums of the same few products of about 5, in another order.
+    for (const ScreenVertex& v : triangle.vertices)
+      EXPECT_NEAR(view_distance(scene, v), v.z, 1e-14);
+  }
+}
+
 TEST(Geometry, BackFacesAreCulled) {
   Scene scene = plane_facing_the_eye();
   scene.objects[0].rotate_degrees = Vec3(-90, 0, 0);

@@ -39,6 +39,17 @@ TEST(Dataflow, SignsAndPowersOfTwoAreFree) {
   expect_counts(recording.dataflow(), 0, 0, 0);
 }
 
+TEST(Dataflow, APowerIsOneOperationWhateverItsExponent) {
+  Recording recording;
+  const Recorded a, p;
+  (void)power(a, p);
+  (void)power(a, Recorded(7));
+  const OperationCounts counts = recording.dataflow().counts();
+  EXPECT_EQ(counts.power, 2U);
+  EXPECT_EQ(recording.dataflow().nodes.size(), 2U);
+  EXPECT_EQ((counts + counts - counts).power, 2U);
+}
+
 TEST(Dataflow, ADotProductIsThreeProductsAndTwoSums) {
   Recording recording;
   const Vector3<Recorded> a, b;
@@ -91,7 +102,10 @@ TEST(Dataflow, OfTheSetupIsTheSameInEveryRun) {
   for (const bool local_viewer : {false, true}) {
     for (const bool gate_series : {false, true}) {
       for (const int channels : {1, 3}) {
-        const SeriesPlan plan = {channels, local_viewer, gate_series};
+        SeriesPlan plan;
+        plan.channels = channels;
+        plan.gate_series = gate_series;
+        plan.form.local_viewer = local_viewer;
         const Dataflow first = record_setup(plan), second = record_setup(plan);
         ASSERT_EQ(first.nodes.size(), second.nodes.size());
         for (std::size_t i = 0; i < first.nodes.size(); ++i) {
@@ -108,10 +122,15 @@ TEST(Dataflow, OfTheSetupIsTheSameInEveryRun) {
 }
 
 TEST(Dataflow, OfTheSetupGrowsByWhatThePlanAsksFor) {
-  const OperationCounts grey = record_setup({1, false, false}).counts();
-  const OperationCounts color = record_setup({3, false, false}).counts();
-  const OperationCounts gated = record_setup({1, false, true}).counts();
-  const OperationCounts local = record_setup({1, true, false}).counts();
+  const auto counts = [](auto change) {
+    SeriesPlan plan;
+    change(plan);
+    return record_setup(plan).counts();
+  };
+  const OperationCounts grey = counts([](SeriesPlan&) {});
+  const OperationCounts color = counts([](SeriesPlan& plan) { plan.channels = 3; });
+  const OperationCounts gated = counts([](SeriesPlan& plan) { plan.gate_series = true; });
+  const OperationCounts local = counts([](SeriesPlan& plan) { plan.form.local_viewer = true; });
   // Every further channel, and the gate, is the same series times another scale.
   EXPECT_EQ(color.multiply - grey.multiply, 12U);
   EXPECT_EQ(color.add, grey.add);

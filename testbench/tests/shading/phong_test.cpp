@@ -196,6 +196,47 @@ TEST(PhongTriangle, InterpolatesEyeAndLightWhereTheyVary) {
   }
 }
 
+// A bench whose default camera, 5 before the origin, sees the corners at these distances.
+struct CuedBench : Bench {
+  explicit CuedBench(const Color& cue_color = Color(0.5, 0, 0.25)) {
+    scene.objects.emplace_back();
+    scene.depth_cue = DepthCue{4, 8, cue_color};
+  }
+  Color color_at(const std::array<double, 3>& distances, int x, int y) const {
+    ScreenTriangle source = triangle_with({kZ, kZ, kZ}, {kZ, kZ, kZ});
+    for (std::size_t i = 0; i < 3; ++i) source.vertices[i].position = (5 - distances[i]) * kZ;
+    Color color;
+    PhongTriangle(scene, material, source).shade(x, y, 1, &color);
+    return color / 255;
+  }
+  Color color_at(double distance) const { return color_at({distance, distance, distance}, 3, 4); }
+};
+
+TEST(PhongTriangle, FadesToTheCuesColorWithDistance) {
+  const CuedBench bench;  // facing light and eye, 0.85, 0.95, 1.05
+  expect_color(bench.color_at(4), 0.85, 0.95, 1);
+  expect_color(bench.color_at(2), 0.85, 0.95, 1);  // nearer than near
+  expect_color(bench.color_at(8), 0.5, 0, 0.25);
+  expect_color(bench.color_at(50), 0.5, 0, 0.25);  // farther than far
+  expect_color(bench.color_at(5), 0.25 * 0.5 + 0.75 * 0.85, 0.75 * 0.95, 0.25 * 0.25 + 0.75 * 1.05);
+}
+
+// Each channel of 0.85, 0.95, 1.05 and what more diffuse light there is.
+TEST(PhongTriangle, WhatIsOverexposedFadesFromItsUnclampedValue) {
+  CuedBench bench(Color::Zero());
+  bench.material.diffuse = Color::Constant(1.5);
+  expect_color(bench.color_at(6), 0.925, 0.975, 1);  // half of 1.85, 1.95, 2.05
+  expect_color(bench.color_at(7), 0.4625, 0.4875, 0.5125);
+}
+
+TEST(PhongTriangle, InterpolatesTheDistanceLinearlyOnTheScreen) {
+  const CuedBench bench(Color::Zero());
+  for (const int x : {0, 5, 9}) {
+    const double distance = 4 + 3 * (x + 0.5) / 16 + 2 * 4.5 / 16;
+    EXPECT_NEAR(bench.color_at({4, 7, 6}, x, 4)[0], 0.85 * (8 - distance) / 4, kExact);
+  }
+}
+
 TEST(PhongTriangle, ClampsToTheOutputsRange) {
   Bench bench;
   bench.material.diffuse = Color(2, 0.5, 0);

@@ -18,25 +18,26 @@ constexpr unsigned kSeed = 43;
 class DatapathPipelineTest : public testing::Test {
  protected:
   DatapathPipelineTest() : random_(kSeed), pipeline_(configuration_), values_(configuration_) {
-    material_.level[0] = 1 << 15;
-    material_.roms.emplace_back(configuration_, 0.5, 20);
-    values_.load_material(material_);
+    table_.roms.emplace_back(configuration_, 0.5, 20);
+    values_.load_table(table_);
     for (int i = 0; i < configuration_.rom_words(); ++i) clock(nullptr, false, i);
   }
 
   DatapathOutputs clock(const Span* span, bool pixel_ready, int rom_address = -1) {
     DatapathInputs inputs;
     inputs.span = span;
-    inputs.material = &material_;
     inputs.pixel_ready = pixel_ready;
-    inputs.rom_write = rom_address >= 0;
-    inputs.rom_address = std::max(rom_address, 0);
+    if (rom_address >= 0) {
+      inputs.table = &table_;
+      inputs.rom_address = rom_address;
+    }
     return pipeline_.clock(inputs);
   }
 
   Span make_span(int length) {
     Span span;
     span.row = {random_.integer(0, 4000), random_.integer(0, 4095), length};
+    span.level[0] = 1 << 15;
     span.diffuse[0] = {random_.integer(0, 1 << 24), random_.integer(-1000, 1000), 3};
     span.specular = {random_.integer(0, 1 << 22), random_.integer(-1000, 1000), 3};
     return span;
@@ -56,7 +57,7 @@ class DatapathPipelineTest : public testing::Test {
 
   Random random_;
   DatapathConfiguration configuration_;
-  MaterialSetup material_ = {};
+  HighlightTable table_;
   DatapathPipeline pipeline_;
   PixelDatapath values_;
 };
@@ -154,10 +155,10 @@ TEST(DatapathDriver, LoadsATableOnlyWhenEmptyAndOneWordAClock) {
   DatapathPipeline pipeline(configuration);
   DatapathDriver driver(frame, pipeline);
   std::vector<Span> spans(3);
-  const std::vector<std::uint32_t> materials = {1, 1, 0};
+  const std::vector<std::uint32_t> tables = {1, 1, 0};
   for (std::size_t i = 0; i < spans.size(); ++i) {
     spans[i].row = {0, static_cast<int>(i), 10};
-    spans[i].material = materials[i];
+    spans[i].table = tables[i];
   }
   int loading = 0, pixels = 0;
   std::vector<int> loaded_before;  // words, before each span

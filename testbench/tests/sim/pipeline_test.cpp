@@ -10,7 +10,7 @@
 #include "model/fixed/model_frame.h"
 #include "model/scene/input_error.h"
 #include "sim/datapath_pipeline.h"
-#include "testbench/tests/fixed/random_frame.h"
+#include "testbench/tests/fixed/random_effects.h"
 #include "testbench/tests/sim/simulations.h"
 
 namespace phongpipe {
@@ -43,7 +43,7 @@ void expect_agreement(const FrameSetup& frame, const Geometry& geometry,
   const Trace by_span = simulate_apart(frame, geometry, configuration, options);
   options.detail = Detail::cycle;
   const Trace by_clock = simulate_apart(frame, geometry, configuration, options);
-  DatapathPipeline datapath(frame.configuration);
+  DatapathPipeline datapath(frame.configuration, frame.cue_color);
   options.datapath = &datapath;
   options.detail = Detail::span;
   const Trace clocked_by_span = simulate_apart(frame, geometry, configuration, options);
@@ -87,6 +87,7 @@ PipelineConfiguration random_pipeline(Random& random) {
   c.walker_row_cycles = random.integer(1, 4);
   c.framebuffer_write_cycles = random.integer(1, 4);
   c.framebuffer_test_cycles = random.integer(1, 4);
+  c.framebuffer_add_cycles = random.integer(1, 4);
   const auto units = [&random] { return Units{random.integer(1, 16), random.integer(1, 3), 1}; };
   c.adders = units();
   c.multipliers = units();
@@ -113,6 +114,24 @@ TEST(Pipeline, BySpanIsByCycleForAnyConfiguration) {
   }
 }
 
+// Several lights, depth cueing, and any blocks left out.
+TEST(Pipeline, BySpanIsByCycleForAnyEffects) {
+  const unsigned first_seed = 60;
+  for (unsigned seed = first_seed; seed < first_seed + 40; ++seed) {
+    Random random(seed);
+    const RandomEffects e = random_effects(random);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));
+    const Effects effects = random.integer(0, 3) > 0 ? Effects::derived : Effects::all;
+    const FrameSetup frame(e.scene, e.geometry,
+                           suit_scene(e.configuration, e.scene, e.geometry, effects), 24, effects);
+    SimulationOptions options;
+    options.stall_percent = random.integer(0, 1) * random.integer(1, 60);
+    options.stall_seed = seed;
+    expect_agreement(frame, e.geometry, random_pipeline(random), options);
+    if (HasFailure()) return;
+  }
+}
+
 TEST(Pipeline, AnEmptyFrameTakesNoTime) {
   const Scene scene = lit_scene(16, 16);
   const Geometry geometry;
@@ -127,7 +146,7 @@ TEST(Pipeline, AnEmptyFrameTakesNoTime) {
   }
 }
 
-TEST(Pipeline, EachChangeOfMaterialLoadsItsTable) {
+TEST(Pipeline, EachChangeOfTableLoadsIt) {
   Random random(61);
   const Scene scene = lit_scene(64, 64);
   Geometry geometry = random_geometry(random, scene, 5, 15);

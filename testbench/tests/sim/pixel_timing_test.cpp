@@ -29,7 +29,7 @@ struct Times {
 
 Times closed_form(const std::vector<Arrival>& arrivals, int depth) {
   Times times;
-  PixelTiming timing(depth);
+  PixelTiming timing(kDatapathLatency, depth);
   for (const Arrival& arrival : arrivals) {
     std::vector<Cycle> cycles = arrival.costs;
     times.in.push_back(timing.next(arrival.asked, cycles.size(), cycles.data()));
@@ -44,11 +44,10 @@ Times clock_by_clock(const std::vector<Arrival>& arrivals, int depth) {
   Times times;
   DatapathConfiguration configuration;
   DatapathPipeline datapath(configuration);
-  MaterialSetup material = {};
-  material.roms.emplace_back(configuration, 0.5, 20);
+  HighlightTable table;
+  table.roms.emplace_back(configuration, 0.5, 20);
   DatapathInputs load;
-  load.material = &material;
-  load.rom_write = true;
+  load.table = &table;
   load.rom_address = configuration.rom_words() - 1;
   datapath.clock(load);
 
@@ -62,7 +61,6 @@ Times clock_by_clock(const std::vector<Arrival>& arrivals, int depth) {
     const bool full = queued == static_cast<std::size_t>(depth), empty = queued == 0;
     Span span;
     DatapathInputs inputs;
-    inputs.material = &material;
     inputs.pixel_ready = !full;
     const std::size_t next = times.in.size();
     if (next < arrivals.size() && arrivals[next].asked <= cycle) {
@@ -113,7 +111,7 @@ TEST(PixelTiming, IsThatOfEveryClock) {
 }
 
 TEST(PixelTiming, ByHand) {
-  PixelTiming timing(2);
+  PixelTiming timing(kDatapathLatency, 2);
   std::vector<Cycle> cycles = {1, 100, 1, 1, 1};  // in the framebuffer
   EXPECT_EQ(timing.next(10, 5, cycles.data()), 10);
   const Cycle first = 10 + kDatapathLatency;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <random>
 #include <vector>
 
@@ -12,19 +14,25 @@ namespace {
 
 constexpr int kInput = Dataflow::kInput;
 
+// What the setup engine has units for.
+constexpr std::array<Operation, 4> kOperations = {Operation::add, Operation::multiply,
+                                                  Operation::rsqrt, Operation::power};
+
 PipelineConfiguration units(const Units& adders, const Units& multipliers = {1, 3, 1},
-                            const Units& rsqrt = {1, 10, 2}) {
+                            const Units& rsqrt = {1, 10, 2}, const Units& power = {1, 8, 1}) {
   PipelineConfiguration configuration;
   configuration.adders = adders;
   configuration.multipliers = multipliers;
   configuration.rsqrt = rsqrt;
+  configuration.power = power;
   return configuration;
 }
 
 const Units& units_of(Operation operation, const PipelineConfiguration& c) {
   return operation == Operation::add        ? c.adders
          : operation == Operation::multiply ? c.multipliers
-                                            : c.rsqrt;
+         : operation == Operation::rsqrt    ? c.rsqrt
+                                            : c.power;
 }
 
 TEST(Schedule, OfNothingTakesNoTime) {
@@ -36,9 +44,10 @@ TEST(Schedule, AChainTakesTheSumOfItsLatencies) {
                            {Operation::multiply, 0, kInput},
                            {Operation::rsqrt, 1, kInput},
                            {Operation::add, 2, 1},
-                           {Operation::multiply, 3, 3}}};
-  EXPECT_EQ(schedule_cycles(chain, units({2, 2, 1})), 2 + 3 + 10 + 2 + 3);
-  EXPECT_EQ(schedule_cycles(chain, units({9, 1, 1}, {9, 1, 1}, {9, 1, 1})), 5);
+                           {Operation::multiply, 3, 3},
+                           {Operation::power, 4, kInput}}};
+  EXPECT_EQ(schedule_cycles(chain, units({2, 2, 1})), 2 + 3 + 10 + 2 + 3 + 8);
+  EXPECT_EQ(schedule_cycles(chain, units({9, 1, 1}, {9, 1, 1}, {9, 1, 1}, {9, 1, 1})), 6);
 }
 
 TEST(Schedule, IndependentOperationsShareTheUnits) {
@@ -112,7 +121,7 @@ void expect_possible(const Dataflow& graph, const PipelineConfiguration& c) {
   const int cycles = schedule_cycles(graph, c);
   EXPECT_GE(cycles, critical_path(graph, c));
   int one_by_one = 0;
-  for (const Operation operation : {Operation::add, Operation::multiply, Operation::rsqrt}) {
+  for (const Operation operation : kOperations) {
     EXPECT_GE(cycles, work_bound(graph, c, operation));
   }
   for (const Dataflow::Node& node : graph.nodes) {
@@ -122,7 +131,7 @@ void expect_possible(const Dataflow& graph, const PipelineConfiguration& c) {
   EXPECT_LE(cycles, one_by_one) << "slower than one operation at a time";
   PipelineConfiguration plenty = c;
   const int nodes = static_cast<int>(graph.nodes.size());
-  plenty.adders.count = plenty.multipliers.count = plenty.rsqrt.count = nodes;
+  plenty.adders.count = plenty.multipliers.count = plenty.rsqrt.count = plenty.power.count = nodes;
   EXPECT_EQ(schedule_cycles(graph, plenty), critical_path(graph, c));
 }
 
@@ -137,19 +146,112 @@ TEST(Schedule, LiesBetweenItsBoundsOnRandomGraphs) {
     Dataflow graph;
     const int nodes = pick(1, 60);
     for (int k = 0; k < nodes; ++k) {
-      const auto operation = static_cast<Operation>(pick(0, 2));
+      const Operation operation = kOperations[static_cast<std::size_t>(pick(0, 3))];
       graph.nodes.push_back(
           {operation, pick(-1, k - 1), operation == Operation::rsqrt ? kInput : pick(-1, k - 1)});
     }
     const auto random_units = [&] { return Units{pick(1, 4), pick(1, 12), pick(1, 4)}; };
-    expect_possible(graph, units(random_units(), random_units(), random_units()));
+    expect_possible(graph, units(random_units(), random_units(), random_units(), random_units()));
     if (testing::Test::HasFailure()) FAIL() << "graph " << i;
   }
 }
 
+OperationCounts recorded(const std::function<void()>& work) {
+  Recording recording;
+  work();
+  return recording.dataflow().counts();
+}
+
+const std::vector<SeriesFit> kFits = {SeriesFit::taylor, SeriesFit::six_point, SeriesFit::weighted,
+                                      SeriesFit::focused};
+
+TEST(Schedule, OfDiffuseLightAloneHasNoOperationOfTheHighlight) {
+  const TriangleInput<Recorded> triangle{};
+  const LightInput<Recorded> light{};
+  for (const SeriesFit fit : kFits) {
+    for (const bool local_viewer : {false, true}) {
+      SeriesPlan plan;
+      plan.specular = false;
+      plan.form.local_viewer = local_viewer;  // whose halfway vectors nothing needs
+      plan.form.fit = fit;
+      const OperationCounts needed = recorded([&] {
+        const Interpolator<Recorded> interpolate(triangle.x, triangle.y);
+        interpolate(triangle.z[0], triangle.z[1], triangle.z[2]);
+        fit_series(fit, interpolate, triangle.normal, light.terms.to_light, light.terms.halfway,
+                   light.terms.sharpness, {true, false})
+            .light.scaled(light.diffuse_scale[0]);
+      });
+      EXPECT_TRUE(record_setup(plan).counts() == needed) << "fit " << static_cast<int>(fit);
+      plan.specular = true;
+      EXPECT_GT(record_setup(plan).counts().multiply, needed.multiply);
+    }
+  }
+  // By hand for Taylor's: 1/|det| and 1/|C|, and no more.
+  SeriesPlan plan;
+  plan.specular = false;
+  EXPECT_EQ(record_setup(plan).counts().rsqrt, 2U);
+}
+
+TEST(Schedule, OfAHighlightAloneHasNoOperationOfDiffuseLight) {
+  const TriangleInput<Recorded> triangle{};
+  const LightInput<Recorded> light{};
+  for (const SeriesFit fit : kFits) {
+    SeriesPlan plan;
+    plan.diffuse = false;
+    plan.form.fit = fit;
+    const OperationCounts needed = recorded([&] {
+      const Interpolator<Recorded> interpolate(triangle.x, triangle.y);
+      interpolate(triangle.z[0], triangle.z[1], triangle.z[2]);
+      fit_series(fit, interpolate, triangle.normal, light.terms.to_light, light.terms.halfway,
+                 light.terms.sharpness, {false, true})
+          .highlight.scaled(light.specular_scale);
+    });
+    EXPECT_TRUE(record_setup(plan).counts() == needed) << "fit " << static_cast<int>(fit);
+    plan.gate_series = true;  // needs N·L
+    EXPECT_GT(record_setup(plan).counts().multiply, needed.multiply);
+  }
+}
+
+TEST(Schedule, OfAmbientLightAloneInterpolatesOnly) {
+  const TriangleInput<Recorded> triangle{};
+  const auto interpolated = [&](bool depth, bool depth_cue) {
+    return recorded([&] {
+      const Interpolator<Recorded> interpolate(triangle.x, triangle.y);
+      if (depth) interpolate(triangle.z[0], triangle.z[1], triangle.z[2]);
+      const auto& share = triangle.own_share;
+      if (depth_cue) interpolate(share[0], share[1], share[2]);
+    });
+  };
+  SeriesPlan plan;
+  plan.diffuse = plan.specular = false;
+  for (const bool depth : {false, true}) {
+    for (const bool depth_cue : {false, true}) {
+      plan.depth = depth;
+      plan.depth_cue = depth_cue;
+      EXPECT_TRUE(record_setup(plan).counts() == interpolated(depth, depth_cue));
+    }
+  }
+}
+
+TEST(Schedule, WhatAPlanLeavesOutSavesTime) {
+  const PipelineConfiguration units;
+  SetupTimes times(units);
+  SeriesPlan full, no_depth, diffuse_only, ambient_only;
+  no_depth.depth = false;
+  diffuse_only.specular = false;
+  ambient_only.specular = ambient_only.diffuse = false;
+  EXPECT_GT(times.of(full).cycles, times.of(diffuse_only).cycles);
+  EXPECT_GT(times.of(diffuse_only).cycles, times.of(ambient_only).cycles);
+  EXPECT_GE(times.of(full).cycles, times.of(no_depth).cycles);
+  EXPECT_EQ(times.of(full).cycles, schedule_cycles(record_setup(full), units));
+  EXPECT_TRUE(times.of(diffuse_only).operations == record_setup(diffuse_only).counts());
+}
+
 TEST(Schedule, OfTheSetupLiesBetweenItsBounds) {
   for (const bool local_viewer : {false, true}) {
-    const Dataflow graph = record_setup({1, local_viewer, false});
+    SeriesPlan plan;
+    plan.form.local_viewer = local_viewer;
+    const Dataflow graph = record_setup(plan);
     expect_possible(graph, PipelineConfiguration());
     expect_possible(graph, units({1, 1, 1}, {1, 1, 1}, {1, 1, 1}));
   }

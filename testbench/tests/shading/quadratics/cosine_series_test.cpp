@@ -31,7 +31,9 @@ Spread errors(SeriesFit fit, double spread, double power) {
 }
 
 std::size_t operations(SeriesFit fit) {
-  const OperationCounts c = record_setup({1, false, false, fit}).counts();
+  SeriesPlan plan;
+  plan.form.fit = fit;
+  const OperationCounts c = record_setup(plan).counts();
   return c.add + c.multiply + c.rsqrt;
 }
 
@@ -45,6 +47,32 @@ TEST(CosineSeries, DoesNotDependOnTheLengthOfTheNormals) {
       for (Vec& n : longer.normal) n *= 3.7;
       const auto t = coefficients(fitted(fit, c)), scaled = coefficients(fitted(fit, longer));
       for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(t[k], scaled[k], 1e-10);
+    }
+  }
+}
+
+// What is left out of a triangle's setup must not change the other.
+TEST(CosineSeries, EitherAloneIsTheSameToTheBit) {
+  SCOPED_TRACE(kSeed);
+  RandomCases random(kSeed);
+  for (int i = 0; i < 200; ++i) {
+    const CosineCase c = random.specular(30, 20);
+    const Interpolator<double> interpolate({0, 9, 2}, {0, 1, 8});
+    const Corners<double> halfway = {c.m, c.normal[0], c.normal[2]};
+    for (const SeriesFit fit : kFits) {
+      const SeriesWanted light_only = {true, false}, highlight_only = {false, true};
+      const auto alone = [&](const auto& m, const SeriesWanted& wanted) {
+        return fit_series(fit, interpolate, c.normal, c.m, m, 19.0, wanted);
+      };
+      const auto light = coefficients(alone(c.m, light_only).light);
+      const auto at_infinity = fit_series(fit, interpolate, c.normal, c.m, c.m, 19.0);
+      const auto local = fit_series(fit, interpolate, c.normal, c.m, halfway, 19.0);
+      EXPECT_EQ(light, coefficients(at_infinity.light));
+      EXPECT_EQ(light, coefficients(local.light));
+      EXPECT_EQ(coefficients(alone(c.m, highlight_only).highlight),
+                coefficients(at_infinity.highlight));
+      EXPECT_EQ(coefficients(alone(halfway, highlight_only).highlight),
+                coefficients(local.highlight));
     }
   }
 }
@@ -161,6 +189,34 @@ TEST(CosineSeries, MoreOperationsLeaveLessError) {
   for (const auto& [spread, power] : {std::pair(45, 20), std::pair(30, 164)}) {
     EXPECT_LT(1.15 * errors(SeriesFit::focused, spread, power).median,
               errors(SeriesFit::weighted, spread, power).median);
+  }
+}
+
+// Unlit by a material that does not shine, or the other way round: half the work is enough.
+TEST(CosineSeries, WhatIsNotWantedIsNotExecuted) {
+  const auto counts = [](SeriesFit fit, const SeriesWanted& wanted) {
+    Recording recording;
+    const Corners<Recorded> normal;
+    const Vector3<Recorded> light, halfway;
+    fit_series(fit, unit_triangle<Recorded>(), normal, light, halfway, Recorded(), wanted);
+    return recording.dataflow().counts();
+  };
+  SCOPED_TRACE(kSeed);
+  RandomCases random(kSeed);
+  for (const SeriesFit fit : kFits) {
+    const OperationCounts both = counts(fit, {true, true});
+    for (const SeriesWanted& one : {SeriesWanted{true, false}, SeriesWanted{false, true}}) {
+      EXPECT_LT(counts(fit, one).multiply, both.multiply);
+      EXPECT_LT(counts(fit, one).add, both.add);
+      const CosineCase c = random.specular(30, 20);
+      const auto triangle = unit_triangle<double>();
+      const auto all = fit_series(fit, triangle, c.normal, c.m, c.m, 19.0);
+      const auto some = fit_series(fit, triangle, c.normal, c.m, c.m, 19.0, one);
+      const auto light = coefficients(one.light ? all.light : Quadratic<double>{});
+      const auto highlight = coefficients(one.highlight ? all.highlight : Quadratic<double>{});
+      EXPECT_EQ(coefficients(some.light), light);
+      EXPECT_EQ(coefficients(some.highlight), highlight);
+    }
   }
 }
 

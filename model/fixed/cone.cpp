@@ -1,0 +1,35 @@
+#include "model/fixed/cone.h"
+
+#include <algorithm>
+
+#include "model/shading/phong.h"
+#include "model/shading/screen_interpolator.h"
+
+namespace phongpipe {
+
+void split_at_cone(const Light& light, const ScreenTriangle& triangle, std::vector<RowSpan>& rows) {
+  const auto inside = [&light](const Vec3& to_light) {
+    return in_cone(light, to_light.normalized());
+  };
+  const auto& v = triangle.vertices;
+  if (light.type != LightType::spot ||
+      std::all_of(v.begin(), v.end(), [&](const ScreenVertex& vertex) {
+        return inside(light_vector(light, vertex));
+      })) {
+    return;
+  }
+  const Linear<Vec3> to_light = screen_interpolator(triangle)(
+      light_vector(light, v[0]), light_vector(light, v[1]), light_vector(light, v[2]));
+  std::vector<RowSpan> pieces;
+  for (const RowSpan& row : rows) {
+    const Vec3 left = to_light.b * (row.y + 0.5) + to_light.c;
+    for (int x = row.x; x < row.x + row.length; ++x) {
+      const bool lit = inside(to_light.a * (x + 0.5) + left);
+      if (x == row.x || lit != pieces.back().lit) pieces.push_back({x, row.y, 0, lit});
+      ++pieces.back().length;
+    }
+  }
+  rows = std::move(pieces);
+}
+
+}  // namespace phongpipe

@@ -1,0 +1,25 @@
+// depth_cue: moves a pixel towards the colour of depth cueing.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "model/fixed/constants.h"
+
+namespace phongpipe {
+
+// The share of the pixel's own colour, 0 to 2^kCueFactorBits, from the series' value.
+inline std::int32_t cue_factor(std::int64_t v) {
+  return static_cast<std::int32_t>(std::clamp<std::int64_t>(v >> (kCueFraction - kCueFactorBits), 0,
+                                                            std::int64_t{1} << kCueFactorBits));
+}
+
+// cue + (sum − cue)·factor, rounded to nearest and saturated. `sum` is in output LSB, rounded, not
+// negative and not yet saturated, so that an overexposed pixel fades as it should.
+inline std::uint8_t depth_cue(std::int32_t sum, std::int32_t cue, std::int32_t factor) {
+  constexpr std::int32_t kHalf = 1 << (kCueFactorBits - 1);
+  const std::int32_t moved = cue + (((sum - cue) * factor + kHalf) >> kCueFactorBits);
+  return static_cast<std::uint8_t>(std::min(moved, kOutputMax));
+}
+
+}  // namespace phongpipe

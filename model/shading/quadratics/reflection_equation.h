@@ -1,0 +1,82 @@
+// The reflection equation of one light in cosines between directions, at a point or as power
+// series: everything the pixels' two quadratics stand for.
+#pragma once
+
+#include <array>
+
+#include "model/scene/scene.h"
+#include "model/shading/quadratics/series_fit.h"
+#include "model/shading/quadratics/truncated_series.h"
+
+namespace phongpipe {
+
+// All that decides which operations are executed.
+struct ReflectionForm {
+  SeriesFit fit = SeriesFit::taylor;
+  bool point_light = false;  // at a finite distance, spots included
+  bool local_viewer = false;
+  Highlight highlight = Highlight::halfway;
+  bool attenuated = false;   // by distance; point_light only
+  bool spot_factor = false;  // point_light only
+  SeriesWanted wanted;
+};
+
+// What is the same for all triangles. A = 1/(c + l d + q d²) · max(0, −L·S)^e, as a multiple of a
+// reference, positive, that the caller has multiplied c, l and q by and multiplies light and
+// highlights by; 1 where nothing is attenuated by distance. It should be the largest A there is:
+// above it highlights saturate, and above kLargestAttenuation times it A does.
+template <typename T>
+struct ReflectionTerms {
+  Vector3<T> to_light;           // unit; read for a directional light
+  Vector3<T> eye;                // unit, surface → eye; read for a viewer at infinity
+  Vector3<T> halfway;            // unit; read where both are so and the highlight is N·H
+  std::array<T, 3> attenuation;  // c, l, q times the reference
+  Vector3<T> spot_axis;          // unit, −S: against the way the light travels
+  T spot_exponent;
+  T fold;       // 1/shininess: A^fold, raised with the highlight's cosine, is A again
+  T sharpness;  // shininess − 1, at least 0; read by the fits that weigh a highlight
+};
+
+constexpr double kLargestAttenuation = 8;
+
+// Cosines between the unit vectors N, L, E and the spot's axis, and the light's distance. F: a
+// number at a point or a Quadratic; C: the same, or a number where L and E are constant.
+template <typename F, typename C = F>
+struct ReflectionCosines {
+  F light{}, eye{};  // N·L, N·E
+  C light_eye{};     // L·E
+  F spot{}, distance{};
+};
+
+// Light: A N·L, not clamped, negative where unlit. Highlight: A^fold N·H or A^fold R·V.
+template <typename T, typename F, typename C>
+Reflected<F> reflected(const ReflectionForm& form, const SeriesWanted& wanted,
+                       const ReflectionTerms<T>& terms, const ReflectionCosines<F, C>& at) {
+  // |E + L|² where E and L oppose each other. The highlight is 0 there; what matters is that it is
+  // a number. Lit and seen at the same time, surfaces are far from it.
+  constexpr double kLeastHalfway = 1e-6;
+  Reflected<F> result;
+  if (wanted.light) result.light = at.light;
+  if (wanted.highlight) {
+    result.highlight =
+        form.highlight == Highlight::halfway
+            ? (at.light + at.eye) * rsqrt(at_least(T(kLeastHalfway), twice(at.light_eye + T(1))))
+            : twice(at.light * at.eye) - at.light_eye;
+  }
+  if (!form.attenuated && !form.spot_factor) return result;
+  F attenuation{};
+  if (form.attenuated) {
+    const auto& [c, l, q] = terms.attenuation;
+    attenuation = reciprocal((at.distance * q + l) * at.distance + c);
+  }
+  if (form.spot_factor) {
+    const F factor = power(at.spot, terms.spot_exponent);
+    attenuation = form.attenuated ? attenuation * factor : factor;
+  }
+  if (form.attenuated) attenuation = at_most(T(kLargestAttenuation), attenuation);
+  if (wanted.light) result.light = result.light * attenuation;
+  if (wanted.highlight) result.highlight = result.highlight * power(attenuation, terms.fold);
+  return result;
+}
+
+}  // namespace phongpipe
