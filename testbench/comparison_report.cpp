@@ -32,7 +32,8 @@ double wall_clock_of_phong(const Comparison& comparison) {
 std::string subdivision_text(const Comparison& c) {
   if (c.split == 0) return "";
   return fmt::format(
-      "{} triangles that turn by more than {}°, or than their highlight reaches, are split into {} "
+      "{} triangles over which normals turn by more than {}°, or highlight or light too far, are "
+      "split into {} "
       "for the fitted quadratics\n",
       c.split, c.hardware.datapath.subdivide_degrees, c.pieces);
 }

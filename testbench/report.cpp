@@ -94,7 +94,8 @@ void report_hardware(Page& page, const Verification& v) {
   if (v.triangles_split > 0) {
     page.line(
         "subdivision",
-        "{} triangles that turn by more than {}°, or than their highlight reaches, split into {}",
+        "{} triangles over which normals turn by more than {}°, or highlight or light too far, "
+        "split into {}",
         v.triangles_split, d.subdivide_degrees, v.pieces);
   }
 }
@@ -184,10 +185,10 @@ nlohmann::ordered_json statistics_json(const ErrorStatistics& s) {
 
 std::string report_text(const Verification& v, bool color) {
   Page page(color);
-  page.plain(fmt::format(
-      "{}: {} triangles, {} of them in view, {} cover a pixel; {} pixels shaded, {} visible",
-      v.scene.string(), v.triangles_read, v.triangles, v.triangles_set_up, v.pixels,
-      v.visible_pixels));
+  page.plain(
+      fmt::format("{}: {} triangles, {} of them in view; {} set up; {} pixels shaded, {} visible",
+                  v.scene.string(), v.triangles_read, v.triangles, v.triangles_set_up, v.pixels,
+                  v.visible_pixels));
   for (const std::string& note : v.notes) page.line("note", "{}", note);
   page.line("hardware", "{}, configuration {}", v.hardware.name, configuration_hash(v.hardware));
   report_hardware(page, v);

@@ -13,17 +13,24 @@ double angle(const Vec3& a, const Vec3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-double turn(const ScreenTriangle& triangle) {
+// The largest angle between what `vector_at` says of two corners.
+template <typename VectorAt>
+double turn(const ScreenTriangle& triangle, const VectorAt& vector_at) {
   const auto& [a, b, c] = triangle.vertices;
-  return std::max(
-      {angle(a.normal, b.normal), angle(b.normal, c.normal), angle(c.normal, a.normal)});
+  const Vec3 u = vector_at(a), v = vector_at(b), w = vector_at(c);
+  return std::max({angle(u, v), angle(v, w), angle(w, u)});
+}
+
+// How far from its middle a power falls below an LSB.
+double reach_of_power(double exponent) {
+  constexpr double kLsb = 1.0 / 255;
+  return std::acos(std::pow(kLsb, 1 / exponent));
 }
 
 // By how much normals turn from the middle of a highlight to where it falls below an LSB. R turns
 // twice as fast as N.
 double radius_of_highlight(const Scene& scene, const Material& material) {
-  constexpr double kLsb = 1.0 / 255;
-  const double radius = std::acos(std::pow(kLsb, 1 / material.shininess));
+  const double radius = reach_of_power(material.shininess);
   return scene.shading.highlight == Highlight::reflection ? radius / 2 : radius;
 }
 
@@ -38,15 +45,16 @@ ScreenVertex middle(const ScreenVertex& a, const ScreenVertex& b) {
   return result;
 }
 
+Vec3 halfway(const Light& light, const ScreenVertex& v) {
+  return v.eye.normalized() + light_vector(light, v).normalized();
+}
+
 // How close a normal of a corner or of the middle of an edge comes to the middle of a highlight.
-double nearest_highlight(const Scene& scene, const ScreenTriangle& triangle) {
+double nearest_highlight(const Light& light, const ScreenTriangle& triangle) {
   const auto& [a, b, c] = triangle.vertices;
   double nearest = kPi;
-  for (const Light& light : scene.lights) {
-    for (const ScreenVertex& v : {a, b, c, middle(a, b), middle(b, c), middle(c, a)}) {
-      const Vec3 halfway = v.eye.normalized() + light_vector(light, v).normalized();
-      nearest = std::min(nearest, angle(v.normal, halfway));
-    }
+  for (const ScreenVertex& v : {a, b, c, middle(a, b), middle(b, c), middle(c, a)}) {
+    nearest = std::min(nearest, angle(v.normal, halfway(light, v)));
   }
   return nearest;
 }
@@ -57,8 +65,9 @@ class Splitter {
       : scene_(scene), largest_turn_(largest_turn_degrees * kPi / 180) {
     for (const Material& material : geometry.materials) {
       const bool shiny = (material.specular > 0).any();
-      highlight_radius_.push_back(shiny ? radius_of_highlight(scene, material) : kPi);
+      highlight_radius_.push_back(shiny ? radius_of_highlight(scene, material) : 2 * kPi);
     }
+    for (const Light& light : scene.lights) light_limit_.push_back(limit_of(light));
   }
 
   void append(const ScreenTriangle& triangle, int levels,
@@ -75,17 +84,43 @@ class Splitter {
   }
 
  private:
+  // Light of a lamp close by bends by its own turning, and by that of the normals; within a cone it
+  // fades with a power.
+  double limit_of(const Light& light) const {
+    if (light.type == LightType::directional) return kPi;
+    constexpr double kShareOfReach = 1.0 / 3;
+    const double cone =
+        has_spot_factor(light) ? kShareOfReach * reach_of_power(light.spot_exponent) : kPi;
+    return std::min(largest_turn_ / 2, cone);
+  }
+
   bool turns_too_sharply(const ScreenTriangle& triangle) const {
-    const double turned = turn(triangle), radius = highlight_radius_[triangle.material];
+    const double turned = turn(triangle, [](const ScreenVertex& v) { return v.normal; });
     if (turned > largest_turn_) return true;
-    // No point of a triangle is farther from its corners and middles than a share of its sides.
-    const double between = turned / std::sqrt(12.0);
-    return turned > radius && nearest_highlight(scene_, triangle) < radius + between;
+    const double radius = highlight_radius_[triangle.material];
+    const bool local = scene_.shading.viewer == Viewer::local;
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+      const Light& light = scene_.lights[i];
+      const bool near = light.type != LightType::directional;
+      if (near && turn(triangle, [&](const ScreenVertex& v) { return light_vector(light, v); }) >
+                      light_limit_[i]) {
+        return true;
+      }
+      double bent = turned;
+      if (near || local) {
+        bent += turn(triangle, [&](const ScreenVertex& v) { return halfway(light, v); });
+      }
+      // No point of a triangle is farther from its corners and middles than a share of its sides.
+      const double between = bent / std::sqrt(12.0);
+      if (bent > radius && nearest_highlight(light, triangle) < radius + between) return true;
+    }
+    return false;
   }
 
   const Scene& scene_;
   double largest_turn_;
   std::vector<double> highlight_radius_;  // by material
+  std::vector<double> light_limit_;       // by light
 };
 
 }  // namespace

@@ -13,9 +13,11 @@ struct Subdivision {
 };
 
 // Splits a triangle by the middles of its edges into four where two normals of its corners are more
-// than `largest_turn_degrees` apart, or, if a highlight falls on it, than the highlight reaches
-// from its middle before it fades below 1 of 255; the four again, up to kSubdivisionLevels deep.
-// 0: none.
+// than `largest_turn_degrees` apart, or, if a highlight falls on it, normals and halfway vectors
+// together than the highlight reaches from its middle before it fades below 1 of 255; under a light
+// close by, also where its directions are more than half the limit apart, or within a cone more
+// than a third of what the cone's power reaches. The four again, up to kSubdivisionLevels deep. 0:
+// none.
 //
 // Middles are plain averages, not made unit, and exact on the screen. So what is interpolated over
 // the pieces, and with it exact Phong shading, is what it was over the whole; and the pieces cover

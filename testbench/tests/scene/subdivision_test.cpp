@@ -128,6 +128,37 @@ TEST(Subdivision, WhereAHighlightFallsTheLimitIsHowFarItReaches) {
   EXPECT_GT(dark, 0);
 }
 
+// A flat triangle under a lamp: split where the light's directions turn too far, and under a narrow
+// cone before that.
+TEST(Subdivision, LightCloseByHasALimitOfItsOwn) {
+  Scene scene = lit_scene(kSize, kSize);
+  Light& light = scene.lights[0];
+  light.type = LightType::spot;
+  light.direction = Vec3(0, 0, -1);
+  Geometry geometry;
+  geometry.materials = {grey_material(0.6, 0, 1)};
+  ScreenTriangle flat;
+  const std::array<Vec3, 3> corners = {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)};
+  for (std::size_t i = 0; i < 3; ++i) {
+    ScreenVertex& v = flat.vertices[i];
+    v.position = corners[i];
+    v.x = static_cast<int>((corners[i].x() + 1.5) * 16 * kSubpixels);
+    v.y = static_cast<int>((corners[i].y() + 1.5) * 16 * kSubpixels);
+    v.normal = v.eye = Vec3(0, 0, 1);
+  }
+  geometry.triangles = {flat};
+  const auto pieces = [&](double height, double exponent) {
+    light.position = Vec3(0, 0, height);
+    light.spot_exponent = exponent;
+    return subdivide(scene, geometry, 45).geometry.triangles.size();
+  };
+  EXPECT_EQ(pieces(10, 0), 1U);   // directions turn by 13°
+  EXPECT_EQ(pieces(4, 0), 4U);    // by 33°
+  EXPECT_EQ(pieces(10, 89), 4U);  // a power that reaches 20°
+  light.type = LightType::directional;
+  EXPECT_EQ(pieces(4, 89), 1U);
+}
+
 TEST(Subdivision, ZeroIsNever) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
