@@ -21,6 +21,9 @@ echo "model, AVX2 or better, over Phong in double: 64-pixel spans $(ratio "$(rat
 echo "model, portable, over Phong in double:       64-pixel spans $(ratio "$(rate model model/portable/64)" "$(rate model phong_in_double/64)"), the pawn's spans $(ratio "$(rate model model/portable/0)" "$(rate model phong_in_double/0)")"
 echo "RTL compared with the model over bare RTL:   $(ratio "$(rate rtl compared)" "$(rate rtl bare)") ($(rate rtl bare) pixels/s bare)"
 echo "SystemC by clock over by span, pawn frame:   $(ratio "$(value systemc by_clock/manual_time 3)" "$(value systemc by_span/manual_time 3)") ($(value systemc by_span/manual_time 3) ms by span)"
+for detail in span cycle; do
+  echo "SystemC of a matt pawn by $detail: everything over the effects it needs $(ratio "$(value systemc "matt/all/$detail/manual_time" 3)" "$(value systemc "matt/derived/$detail/manual_time" 3)")"
+done
 echo "image size, pixels/s of the model's frame and of SystemC by span:"
 for size in 256 512 1024 2048 4096; do
   echo "  $size²  $(rate systemc "model_at_size/$size")  $(rate systemc "by_span_at_size/$size/manual_time")"

@@ -17,11 +17,16 @@ struct PawnFrame {
   FrameSetup frame;
   std::int64_t pixels = 0;
 
-  explicit PawnFrame(int size = 2048)
-      : scene(load(size)),
+  PawnFrame(const PawnFrame&) = delete;  // the frame refers to the scene
+  PawnFrame& operator=(const PawnFrame&) = delete;
+
+  explicit PawnFrame(int size = 2048) : PawnFrame(load(size), "paper-1k", Effects::derived) {}
+
+  PawnFrame(const Scene& described, const char* preset, Effects effects)
+      : scene(described),
         geometry(make_geometry(scene)),
-        hardware(suited(scene, geometry)),
-        frame(scene, geometry, hardware.datapath, hardware.pipeline.depth_bits) {
+        hardware(suited(scene, geometry, preset, effects)),
+        frame(scene, geometry, hardware.datapath, hardware.pipeline.depth_bits, effects) {
     for_each_span([this](const Span& span) { pixels += span.row.length; });
   }
 
@@ -44,15 +49,17 @@ struct PawnFrame {
   }
   const HighlightTable& table() const { return frame.tables.front(); }
 
- private:
   static Scene load(int size) {
     Scene scene = load_scene(installation().scenes / "pawn.toml");
     scene.image.width = scene.image.height = size;
     return scene;
   }
-  static Hardware suited(const Scene& scene, const Geometry& geometry) {
-    Hardware hardware = load_hardware("paper-1k", {});
-    suit_scene(hardware, scene, geometry);
+
+ private:
+  static Hardware suited(const Scene& scene, const Geometry& geometry, const char* preset,
+                         Effects effects) {
+    Hardware hardware = load_hardware(preset, {});
+    suit_scene(hardware, scene, geometry, effects);
     return hardware;
   }
 };

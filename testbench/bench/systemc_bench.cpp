@@ -49,6 +49,14 @@ void by_clock(benchmark::State& state) {
   simulate_frame(state, pawn(), Detail::cycle);
 }
 
+// A matt pawn, by hardware with the effects it needs and by one with all.
+template <Effects kEffects, Detail kDetail>
+void matt(benchmark::State& state) {
+  Scene scene = PawnFrame::load(2048);
+  for (Material& material : scene.materials) material.specular = Color::Zero();
+  simulate_frame(state, PawnFrame(scene, "default", kEffects), kDetail);
+}
+
 void by_span_at_size(benchmark::State& state) {
   simulate_frame(state, PawnFrame(static_cast<int>(state.range(0))), Detail::span);
 }
@@ -63,6 +71,22 @@ void model_at_size(benchmark::State& state) {
 
 BENCHMARK(by_span)->Unit(benchmark::kMillisecond)->UseManualTime();
 BENCHMARK(by_clock)->Unit(benchmark::kMillisecond)->UseManualTime();
+BENCHMARK_TEMPLATE(matt, Effects::derived, Detail::span)
+    ->Name("matt/derived/span")
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime();
+BENCHMARK_TEMPLATE(matt, Effects::all, Detail::span)
+    ->Name("matt/all/span")
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime();
+BENCHMARK_TEMPLATE(matt, Effects::derived, Detail::cycle)
+    ->Name("matt/derived/cycle")
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime();
+BENCHMARK_TEMPLATE(matt, Effects::all, Detail::cycle)
+    ->Name("matt/all/cycle")
+    ->Unit(benchmark::kMillisecond)
+    ->UseManualTime();
 BENCHMARK(by_span_at_size)
     ->RangeMultiplier(2)
     ->Range(256, 4096)
