@@ -214,12 +214,12 @@ MaterialSetup FrameSetup::set_up_material(std::uint32_t pass, const Material& ma
     setup.table = table_of(material.specular * light.color * reference, material.shininess);
     setup.first_visible_address = first_visible_address(tables[setup.table]);
   }
-  // A Taylor series costs no more than its bound does.
-  if (form.fit == SeriesFit::taylor || form.point_light) return setup;
+  // The cheaper series cost no more than their bounds do.
+  const bool pays = form.fit == SeriesFit::weighted || form.fit == SeriesFit::focused;
+  if (!pays || form.point_light) return setup;
   setup.plan.bound_light = !all && (setup.plan.diffuse || setup.plan.gate_series);
-  setup.plan.bound_highlight = setup.plan.specular && !form.local_viewer &&
-                               form.highlight == Highlight::halfway &&
-                               !(all && form.fit == SeriesFit::six_point);
+  setup.plan.bound_highlight =
+      setup.plan.specular && !form.local_viewer && form.highlight == Highlight::halfway;
   return setup;
 }
 

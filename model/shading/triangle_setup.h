@@ -56,8 +56,8 @@ struct LightInput {
   T gate_scale;
 };
 
-// The highest values, as cosines, that the series of a triangle can have; of the highlight, as
-// six_point fits it.
+// The highest values, as cosines, that the series of a triangle can have: of light as the weighted
+// and focused fits have it, of the highlight as six_point fits it.
 template <typename T>
 struct TriangleBounds {
   T light{}, highlight{};
@@ -74,8 +74,7 @@ TriangleBounds<T> bound_triangle(const SeriesPlan& plan, const TriangleInput<T>&
   bounds.turn = extent.turn;
   if (plan.bound_light) {
     const auto range = cosine_range(triangle.normal, extent, light.terms.to_light);
-    const bool six = plan.form.fit == SeriesFit::six_point;
-    bounds.light = highest_value(range, remainder, six ? kSixPointNorm : kNinePointNorm);
+    bounds.light = highest_value(range, remainder, kNinePointNorm);
   }
   if (plan.bound_highlight) {
     const auto range = cosine_range(triangle.normal, extent, light.terms.halfway);
