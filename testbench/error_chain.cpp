@@ -68,11 +68,17 @@ class PassChain {
       light.rounded[k] += rounded_ambient_[k] + std::max(0.0, rounded[c]);
       light.table[k] += rounded_ambient_[k] + std::max(0.0, rounded[c]);
     }
-    if (full_plan_.specular && open(real, full_plan_.gate_series ? real_.gate(x, y) : 0)) {
-      light.polynomial += full_highlight(real_.specular(x, y));
+    if (!full_plan_.specular || !span.row.lit) return;
+    const bool real_open = open(real, full_plan_.gate_series ? real_.gate(x, y) : 0);
+    const Color real_highlight =
+        real_open ? full_highlight(real_.specular(x, y)) : Color(Color::Zero());
+    light.polynomial += real_highlight;
+    if (!span.highlight) {  // left out, as the table's words are 0
+      light.rounded += real_highlight;
+      return;
     }
     const std::int64_t gate = value(span.gate, i, configuration_.diffuse_width());
-    if (!span.highlight || !open(rounded, static_cast<double>(gate))) return;
+    if (!open(rounded, static_cast<double>(gate))) return;
     const std::int64_t specular = value(span.specular, i, configuration_.specular_width());
     light.rounded += full_highlight(
         std::ldexp(static_cast<double>(specular), -configuration_.specular_fraction_bits));

@@ -14,8 +14,8 @@ ModelFrame run_model(const FrameSetup& frame, const Geometry& geometry, Evaluati
   ModelFrame result{{}, {}, Framebuffer(frame, Framebuffer::Owners::kept), 0, 0, 0};
   const FrontEnd front_end(frame, geometry);
   // Room that is not used is not touched, and so costs nothing.
-  result.stream.reserve(2 * frame.passes * result.framebuffer.size());
-  result.spans.reserve(frame.passes * result.framebuffer.size());
+  result.stream.reserve(2 * result.framebuffer.size() * frame.passes);
+  result.spans.reserve(result.framebuffer.size() * frame.passes);
   PixelDatapath datapath(frame.configuration, evaluation, frame.cue_color);
   std::vector<std::uint32_t> colors;
   std::vector<std::uint8_t> taken;
