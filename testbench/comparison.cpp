@@ -150,7 +150,7 @@ class SceneComparison {
     for (int pass = 0; pass < kPasses; ++pass) {
       const auto start = std::chrono::steady_clock::now();
       frame = render_method(scene, drawn.triangles.geometry, drawn.visibility, method,
-                            PowerKind::exact);
+                            comparison_.power);
       const std::chrono::duration<double, std::nano> taken =
           std::chrono::steady_clock::now() - start;
       least = std::min(least, taken.count());
@@ -163,8 +163,8 @@ class SceneComparison {
   void cost(const ShadingMethod& method, const Scene& scene, const Visibility& visibility,
             MethodResult& result) const {
     const bool exact = method.name == "phong";
-    const MethodCosts phong = phong_costs(scene, parts_, PowerKind::table);
-    result.costs = exact ? phong : method.costs(parts_, PowerKind::table);
+    const MethodCosts phong = phong_costs(scene, parts_, comparison_.power);
+    result.costs = exact ? phong : method.costs(parts_, comparison_.power);
     const PipelineConfiguration& units = comparison_.hardware.pipeline;
     result.clocks_per_pixel =
         amortised(result.costs, visibility,
@@ -207,8 +207,9 @@ class SceneComparison {
 }  // namespace
 
 Comparison compare(const std::filesystem::path& file, const Hardware& hardware,
-                   const std::function<void(const std::string&)>& progress) {
+                   const std::function<void(const std::string&)>& progress, PowerKind power) {
   Comparison comparison;
+  comparison.power = power;
   comparison.scene = file;
   comparison.hardware = hardware;
   const Scene scene = load_scene(file);

@@ -40,11 +40,14 @@ struct Comparison {
   Hardware hardware;
   int width = 0, height = 0, channels = 3;
   std::size_t triangles = 0, spans = 0, pixels = 0;  // with a pixel; rows; shaded
+  PowerKind power = PowerKind::exact;
   std::size_t split = 0, pieces = 0;  // triangles that fitted quadratics get in so many pieces
   std::vector<MethodResult> methods;  // the limit of quadratics last
 };
 
+// `power`: of the methods' highlights; an exact one is counted as a table read.
 Comparison compare(const std::filesystem::path& scene, const Hardware& hardware,
-                   const std::function<void(const std::string&)>& progress);
+                   const std::function<void(const std::string&)>& progress,
+                   PowerKind power = PowerKind::exact);
 
 }  // namespace phongpipe

@@ -32,6 +32,14 @@ std::filesystem::path find_scene(const std::string& name) {
   return find_named(name, installation().scenes, "scene");
 }
 
+void add_power_option(CLI::App& command, std::optional<PowerKind>& power) {
+  std::vector<std::pair<std::string_view, PowerKind>> kinds;
+  for (const PowerKind kind : power_kinds()) kinds.emplace_back(name(kind), kind);
+  add_choice(command, "--power", power, kinds, "exact",
+             "Power of highlights in real arithmetic: exact, the paper's table, or by Schlick or "
+             "Lyon without one; flat, gouraud and phong stay exact");
+}
+
 void HardwareOptions::add_to(CLI::App& command) {
   command
       .add_option("--hardware", hardware,

@@ -2,11 +2,18 @@
 // `run` when it is the one that was called.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
+
+#include "model/shading/methods/power.h"
 
 namespace phongpipe {
 
@@ -26,6 +33,31 @@ struct HardwareOptions {
 
   void add_to(CLI::App& command);
 };
+
+// An option whose value is one of some words. `Value`: the enumeration, or an optional of it.
+template <typename Enum, typename Value>
+void add_choice(CLI::App& command, const std::string& flag, Value& value,
+                const std::vector<std::pair<std::string_view, Enum>>& choices,
+                const std::string& fallback, const std::string& help) {
+  std::string words;
+  for (const auto& [word, choice] : choices) {
+    words += fmt::format("{}{}", words.empty() ? "" : "|", word);
+  }
+  const auto set = [&value, choices, flag, words](const std::string& text) {
+    for (const auto& [word, choice] : choices) {
+      if (text != word) continue;
+      value = choice;
+      return;
+    }
+    throw CLI::ValidationError(flag, fmt::format("{} is none of {}", text, words));
+  };
+  command.add_option_function<std::string>(flag, set, help)
+      ->type_name(words)
+      ->default_str(fallback);
+}
+
+// --power: how the power of highlights is computed by the methods in real arithmetic.
+void add_power_option(CLI::App& command, std::optional<PowerKind>& power);
 
 // Shows what is being done while it is, on a terminal; silent in a pipe.
 class Progress {

@@ -17,6 +17,7 @@ struct Options {
   std::vector<std::string> scenes;
   HardwareOptions hardware;
   std::string curve;
+  std::optional<PowerKind> power;
   bool microvax = false;
   std::filesystem::path out;
   std::string json, csv;
@@ -74,8 +75,9 @@ int compare_methods(const Options& options) {
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   std::string csv;
   for (const std::string& scene : options.scenes) {
-    const Comparison comparison =
-        compare(find_scene(scene), hardware, [&](const std::string& what) { progress(what); });
+    const Comparison comparison = compare(
+        find_scene(scene), hardware, [&](const std::string& what) { progress(what); },
+        options.power.value_or(PowerKind::exact));
     progress.clear();
     if (options.json != "-" && options.csv != "-") {
       fmt::print("{}", comparison_text(comparison));
@@ -116,6 +118,7 @@ void add_compare(CLI::App& application, Run& run) {
   command->footer(
       "Example: phongpipe compare teapot --out out\n"
       "         phongpipe compare --curve curvature --out out\n");
+  add_power_option(*command, options->power);
   options->hardware.add_to(*command);
   command->callback([options, &run] { run = [options] { return compare_methods(*options); }; });
 }

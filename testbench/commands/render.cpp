@@ -28,6 +28,7 @@ struct Options {
   fs::path output, triangles;
   HardwareOptions hardware;
   std::string method = kPipelineMethod;
+  std::optional<PowerKind> power;
   std::optional<Arithmetic> arithmetic;
 };
 
@@ -46,6 +47,11 @@ void check(const Options& options, Arithmetic arithmetic) {
     throw InputError(
         fmt::format("{} has no fixed-point form; use --arithmetic real, or --method {}",
                     options.method, kPipelineMethod));
+  }
+  if (arithmetic == Arithmetic::fixed && options.power) {
+    throw InputError(
+        "the hardware has a table of its own, see rom_address_bits; use --power with --arithmetic "
+        "real");
   }
   if (options.output.empty() && options.triangles.empty()) {
     throw InputError(
@@ -84,7 +90,9 @@ std::vector<Color> render_real(const Options& options, const Scene& scene, const
   if (const auto reason = refusal(method, scene, geometry.materials)) {
     throw InputError(scene.file, 0, fmt::format("{} cannot render it: {}", method.name, *reason));
   }
-  return render_method(scene, geometry, visibility, method, PowerKind::exact).colors;
+  return render_method(scene, geometry, visibility, method,
+                       options.power.value_or(PowerKind::exact))
+      .colors;
 }
 
 int render(const Options& options) {
@@ -135,13 +143,11 @@ void add_render(CLI::App& application, Run& run) {
       ->type_name("FILE");
   command->add_option("--method", options->method, "Shading method, see below")
       ->capture_default_str();
-  const std::map<std::string, Arithmetic> arithmetics = {{"real", Arithmetic::real},
-                                                         {"fixed", Arithmetic::fixed}};
-  command
-      ->add_option("--arithmetic", options->arithmetic,
-                   "real (double precision) or fixed (the hardware's bits)")
-      ->transform(CLI::CheckedTransformer(arithmetics))
-      ->default_str("fixed for taylor, else real");
+  add_choice<Arithmetic>(*command, "--arithmetic", options->arithmetic,
+                         {{"real", Arithmetic::real}, {"fixed", Arithmetic::fixed}},
+                         "fixed for taylor, else real",
+                         "real (double precision) or fixed (the hardware's bits)");
+  add_power_option(*command, options->power);
   command
       ->add_option("--dump-triangles", options->triangles,
                    "Write the triangles as the setup engine receives them")

@@ -64,22 +64,17 @@ void add_verify(CLI::App& application, Run& run) {
       ->add_option("--json", options->json,
                    "Write the results as JSON; - is standard output, in place of the report")
       ->type_name("FILE");
-  const std::map<std::string, Detail> details = {{"span", Detail::span}, {"cycle", Detail::cycle}};
-  command->add_option("--detail", v.detail, "SystemC by the span, or by every clock (slower)")
-      ->transform(CLI::CheckedTransformer(details))
-      ->default_str("span");
+  add_choice<Detail>(*command, "--detail", v.detail,
+                     {{"span", Detail::span}, {"cycle", Detail::cycle}}, "span",
+                     "SystemC by the span, or by every clock (slower)");
   command
       ->add_option("--stall", v.stall_percent,
                    "Random back-pressure: per cent of pixels the framebuffer stalls at")
       ->check(CLI::Range(0, 100));
   command->add_option("--seed", v.seed, "Of the random back-pressure")->capture_default_str();
-  const std::map<std::string, Effects> effects = {{"scene", Effects::derived},
-                                                  {"all", Effects::all}};
-  command
-      ->add_option("--effects", v.effects,
-                   "Build and simulate what the scene's effects need, or everything there is")
-      ->transform(CLI::CheckedTransformer(effects))
-      ->default_str("scene");
+  add_choice<Effects>(*command, "--effects", v.effects,
+                      {{"scene", Effects::derived}, {"all", Effects::all}}, "scene",
+                      "Build and simulate what the scene's effects need, or everything there is");
   command->add_option("--rtl", v.rtl_sources, "Folder of the RTL to verify, if not the installed")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory);

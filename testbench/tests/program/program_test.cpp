@@ -383,7 +383,10 @@ TEST_F(Program, BadUsageIsOneLineAndTwo) {
   expect_refused({"verify", "sphere", "--budget", "-3"}, "--budget");
   expect_refused({"verify", "sphere", "--stall", "101"}, "--stall");
   expect_refused({"verify", "sphere", "--rtl", "/nosuch"}, "--rtl");
-  expect_refused({"verify", "sphere", "--effects", "nonsense"}, "--effects");
+  expect_refused({"verify", "sphere", "--effects", "nonsense"},
+                 "--effects: nonsense is none of scene|all");
+  expect_refused({"render", "sphere", "-o", file("a.png"), "--power", "lyon-4"},
+                 "use --power with --arithmetic real");
   expect_refused({"render", "sphere"}, "nothing to write");
   expect_refused({"render", "sphere", "-o", file("a.jpg")}, ".png or .pfm");
   expect_refused({"render", "sphere", "-o", "/nosuch/a.png"}, "cannot be written");
