@@ -109,10 +109,10 @@ bool SetupEngine::rounds_alike(const SeriesPlan& plan, const MaterialSetup& mate
   bool all = true;
   if (plan.flat_light) {
     const int bits = configuration.diffuse_fraction_bits;
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t c = 0; plan.diffuse && c < static_cast<std::size_t>(plan.channels); ++c) {
       all = all && alike(flat.diffuse[c].t0, light.diffuse_scale[c], bits);
     }
-    all = all && alike(flat.gate.t0, light.gate_scale, bits);
+    all = all && (!plan.gate_series || alike(flat.gate.t0, light.gate_scale, bits));
   }
   return all && (!plan.flat_highlight || alike(flat.specular.t0, light.specular_scale,
                                                configuration.specular_fraction_bits));

@@ -1,0 +1,297 @@
+// What setup and datapath leave out, and that it changes nothing: highlights that cannot be seen,
+// light that triangles face away from, series that stay what they are on planes.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <sstream>
+#include <string>
+
+#include "model/fixed/front_end.h"
+#include "model/fixed/model_frame.h"
+#include "model/scene/subdivision.h"
+#include "model/shading/phong.h"
+#include "sim/pipeline.h"
+#include "sim/schedule.h"
+#include "testbench/hardware.h"
+#include "testbench/process.h"
+#include "testbench/tests/fixed/random_effects.h"
+
+namespace phongpipe {
+namespace {
+
+// A shipped scene as `verify` prepares it for the default hardware, changed before.
+class Prepared {
+ public:
+  using Change = std::function<void(Scene&)>;
+  explicit Prepared(const std::string& name, const Change& change = {})
+      : scene_(changed(name, change)),
+        hardware_(load_hardware("default", {})),
+        geometry_(subdivide(scene_, make_geometry(scene_), hardware_.datapath.subdivide_degrees)
+                      .geometry) {}
+
+  const Geometry& geometry() const { return geometry_; }
+  const Scene& scene() const { return scene_; }
+  FrameSetup frame(Effects effects = Effects::derived) const {
+    Hardware suited = hardware_;
+    suit_scene(suited, scene_, geometry_, effects);
+    return {scene_, geometry_, suited.datapath, suited.pipeline.depth_bits, effects};
+  }
+
+ private:
+  static Scene changed(const std::string& name, const Change& change) {
+    Scene scene = load_scene(std::string(PHONGPIPE_SCENES) + "/" + name + ".toml");
+    if (change) change(scene);
+    return scene;
+  }
+
+  Scene scene_;
+  Hardware hardware_;
+  Geometry geometry_;
+};
+
+// Everything that is set up, pass by pass.
+void for_each_setup(const FrameSetup& frame, const Geometry& geometry,
+                    const std::function<void(SetupOutcome, const TriangleWork&)>& visit) {
+  const FrontEnd front_end(frame, geometry);
+  TriangleWork work;
+  for (TriangleOrder next(front_end); !next.done(); next.advance()) {
+    const SetupOutcome outcome = front_end.set_up(next.triangle(), next.pass(), work);
+    if (outcome != SetupOutcome::nothing) visit(outcome, work);
+  }
+}
+
+std::uint64_t pixels_of(const TriangleWork& work) {
+  std::uint64_t pixels = 0;
+  for (const RowSpan& row : work.rows) pixels += static_cast<std::uint64_t>(row.length);
+  return pixels;
+}
+
+std::size_t total(const OperationCounts& counts) {
+  return counts.add + counts.multiply + counts.rsqrt + counts.power;
+}
+
+// What a simulation executed.
+struct Executed {
+  std::size_t setup = 0;
+  PixelOperations pixel;
+  std::int64_t rom_load_cycles = 0;
+  std::string modules;
+};
+
+Executed execute(const FrameSetup& frame, const Geometry& geometry, Detail detail = Detail::span) {
+  Child child([&] {
+    SimulationOptions options;
+    options.detail = detail;
+    const SimulationResult result = simulate(frame, geometry, PipelineConfiguration(), options);
+    std::ostringstream text;
+    text << total(result.setup_operations) << ' ' << result.pixel_operations.additions << ' '
+         << result.pixel_operations.reads << ' ' << result.rom_load_cycles;
+    for (const std::string& module : result.modules) text << ' ' << module;
+    return text.str();
+  });
+  std::istringstream text(child.get());
+  Executed executed;
+  text >> executed.setup >> executed.pixel.additions >> executed.pixel.reads >>
+      executed.rom_load_cycles;
+  std::getline(text, executed.modules);
+  return executed;
+}
+
+class OperationsOf {
+ public:
+  std::size_t operator()(const SeriesPlan& plan) { return total(times_.of(plan).operations); }
+  // What would be executed for this without tests and without the highlight.
+  std::size_t without_highlight(SeriesPlan plan) {
+    plan.specular = plan.gate_series = plan.dim = plan.flat_highlight = false;
+    return (*this)(untested(plan));
+  }
+  static SeriesPlan untested(SeriesPlan plan) {
+    plan.bound_light = plan.bound_highlight = false;
+    return plan;
+  }
+
+ private:
+  PipelineConfiguration units_;
+  SetupTimes times_{units_};
+};
+
+class SharpPawn : public testing::TestWithParam<int> {
+ protected:
+  Prepared pawn_{"pawn", [](Scene& scene) {
+                   scene.image.width = scene.image.height = GetParam();
+                   for (Material& material : scene.materials) material.shininess = 164;
+                 }};
+};
+
+// All tests are paid for, those of light too, and all that they save counts: half, and little more.
+TEST_P(SharpPawn, HalfTheHighlightsSetupIsSavedTestsIncluded) {
+  const FrameSetup frame = pawn_.frame();
+  OperationsOf operations;
+  std::size_t full = 0, highlights = 0, executed = 0, more = 0;
+  for_each_setup(frame, pawn_.geometry(), [&](SetupOutcome, const TriangleWork& work) {
+    const SeriesPlan &whole = work.setup.material->plan, &own = work.setup.plan;
+    full += operations(OperationsOf::untested(whole));
+    highlights += operations(OperationsOf::untested(whole)) - operations.without_highlight(whole);
+    executed += operations(own);
+    more += operations(own) - operations.without_highlight(own);
+  });
+  const double of_highlights = static_cast<double>(highlights);
+  EXPECT_GE((static_cast<double>(full) - static_cast<double>(executed)) / of_highlights, 0.5);
+  // Of the highlight alone, though it pays for all tests.
+  EXPECT_GE(1 - static_cast<double>(more) / of_highlights, 0.4);
+  EXPECT_EQ(executed, execute(frame, pawn_.geometry()).setup) << "the simulation counts the same";
+}
+
+TEST_P(SharpPawn, HalfTheHighlightsStepsAndReadsAreSaved) {
+  const FrameSetup frame = pawn_.frame();
+  std::uint64_t pixels = 0, stepped = 0, read = 0;
+  const SpanWalker walker(frame);
+  for_each_setup(frame, pawn_.geometry(), [&](SetupOutcome, const TriangleWork& work) {
+    for (const RowSpan& row : work.rows) {
+      const auto length = static_cast<std::uint64_t>(row.length);
+      const Span span = walker.start(work.setup, row);
+      pixels += length;
+      if (span.step_specular) stepped += length;
+      if (span.highlight) read += length;
+    }
+  });
+  EXPECT_LE(2 * stepped, pixels);
+  EXPECT_LE(2 * read, pixels);
+  const Executed own = execute(frame, pawn_.geometry());
+  const Executed all = execute(pawn_.frame(Effects::all), pawn_.geometry());
+  EXPECT_EQ(own.pixel.reads, read);
+  EXPECT_EQ(all.pixel.reads, pixels);
+}
+
+// Everything has three channels, of which the pawn's are alike.
+TEST_P(SharpPawn, LooksAsIfNothingWereLeftOut) {
+  std::vector<std::uint32_t> own = run_model(pawn_.frame(), pawn_.geometry()).colors();
+  for (std::uint32_t& color : own) color *= 0x010101;
+  EXPECT_TRUE(own == run_model(pawn_.frame(Effects::all), pawn_.geometry()).colors());
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, SharpPawn, testing::Values(512, 2048));
+
+class ElisionIn : public testing::TestWithParam<Detail> {};
+
+TEST_P(ElisionIn, ADiffuseSceneHasNoHighlightAnywhere) {
+  const Prepared diffuse("effects/diffuse");
+  const FrameSetup frame = diffuse.frame();
+  const Executed executed = execute(frame, diffuse.geometry(), GetParam());
+  for (const char* module : {"specular_series", "exponent_rom", "gate_series"}) {
+    EXPECT_EQ(executed.modules.find(module), std::string::npos) << executed.modules;
+  }
+  EXPECT_NE(executed.modules.find("diffuse_series"), std::string::npos) << executed.modules;
+  EXPECT_EQ(executed.pixel.reads, 0U);
+  EXPECT_EQ(executed.rom_load_cycles, 0);
+  // The two of each diffuse series' pixel where it has one, and nothing else.
+  OperationsOf operations;
+  std::size_t setup = 0;
+  std::uint64_t steps = 0;
+  for_each_setup(frame, diffuse.geometry(), [&](SetupOutcome, const TriangleWork& work) {
+    EXPECT_FALSE(work.setup.plan.specular || work.setup.plan.bound_highlight);
+    setup += operations(work.setup.plan);
+    if (work.setup.plan.diffuse) steps += 2 * pixels_of(work);
+  });
+  EXPECT_EQ(executed.setup, setup);
+  EXPECT_EQ(executed.pixel.additions, steps);
+}
+
+// No step, no more than the highlight's sum and one read for each pixel.
+TEST_P(ElisionIn, PlanesHaveNoSteps) {
+  const Prepared planes("two-planes");
+  const FrameSetup frame = planes.frame();
+  const Executed executed = execute(frame, planes.geometry(), GetParam());
+  std::uint64_t pixels = 0;
+  for_each_setup(frame, planes.geometry(), [&](SetupOutcome, const TriangleWork& work) {
+    EXPECT_TRUE(work.setup.plan.flat_light && work.setup.plan.flat_highlight);
+    pixels += pixels_of(work);
+  });
+  EXPECT_EQ(executed.pixel.reads, pixels);
+  EXPECT_EQ(executed.pixel.additions, pixels);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipeline, ElisionIn, testing::Values(Detail::span, Detail::cycle),
+                         [](const testing::TestParamInfo<Detail>& info) {
+                           return info.param == Detail::span ? "BySpan" : "ByCycle";
+                         });
+
+// A triangle is dropped in a further light's pass only if all its pixels face away from the light;
+// of a sphere and a torus most of those that do are.
+TEST(Elision, DropsTrianglesThatFaceAwayFromAFurtherLight) {
+  const Prepared lights("effects/two-lights");
+  const FrameSetup frame = lights.frame();
+  const ModelFrame model = run_model(frame, lights.geometry());
+  std::size_t dropped = 0, facing_away = 0, set_up = 0;
+  for_each_setup(frame, lights.geometry(), [&](SetupOutcome outcome, const TriangleWork& work) {
+    ++set_up;
+    if (work.setup.pass == 0) return;
+    const ScreenTriangle& triangle = lights.geometry().triangles[work.setup.triangle];
+    double highest = -1;
+    for (const ScreenVertex& vertex : triangle.vertices) {
+      highest =
+          std::max(highest, -vertex.normal.normalized().dot(lights.scene().lights[1].direction));
+    }
+    facing_away += highest <= 0;
+    if (outcome == SetupOutcome::dropped) {
+      ++dropped;
+      EXPECT_LE(highest, 0) << "triangle " << work.setup.triangle;
+    }
+  });
+  EXPECT_EQ(model.triangles_dropped, dropped);
+  EXPECT_EQ(model.triangles_set_up, set_up);
+  EXPECT_GT(dropped, facing_away * 8 / 10);
+  EXPECT_TRUE(model.colors() == run_model(lights.frame(Effects::all), lights.geometry()).colors());
+}
+
+// Triangles whose corners have one normal: their series are T0 alone, and its bits are those that
+// the whole computation gives, whichever fit.
+TEST(Elision, OfFlatTrianglesLeavesTheBitsOfT0) {
+  constexpr unsigned kFirstSeed = 307, kSeeds = 1500;
+  std::size_t flat = 0;
+  for (unsigned seed = kFirstSeed; seed < kFirstSeed + kSeeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    Scene scene = lit_scene(100, 100);
+    Geometry geometry = random_geometry(random, scene, 4, 30);
+    for (ScreenTriangle& triangle : geometry.triangles) {
+      const Vec3 normal = random.unit_near(Vec3(0, 0, 1), 80) * random.uniform(0.5, 1.5);
+      for (ScreenVertex& vertex : triangle.vertices) vertex.normal = normal;
+    }
+    // Now and then the light comes along a normal, so that the cosine is 1 and T0, with a colour of
+    // 1/32 in sixteenths of an LSB, half way between two numbers.
+    if (seed % 3 == 0) {
+      scene.lights.front().direction = -geometry.triangles[0].vertices[0].normal.normalized();
+      for (Material& material : geometry.materials) material.diffuse = Color::Constant(1.0 / 32);
+    }
+    DatapathConfiguration c;
+    c.series_fit = static_cast<SeriesFit>(random.integer(1, 3));
+    c.anchor = random.integer(0, 1) == 0 ? Anchor::triangle : Anchor::span;
+    if (seed % 3 == 0) c.anchor = Anchor::triangle;
+    c.diffuse_fraction_bits = seed % 3 == 0 ? 4 : 16;
+    c.gate = random.integer(0, 1) == 0 ? GateSource::diffuse : GateSource::series;
+    const FrameSetup own(scene, geometry, c, 24), all(scene, geometry, c, 24, Effects::all);
+    for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
+      TriangleWork work;
+      if (FrontEnd(own, geometry).set_up(t, 0, work) != SetupOutcome::ready) continue;
+      const TriangleSetup some = work.setup;
+      FrontEnd(all, geometry).set_up(t, 0, work);
+      const TriangleSetup whole = work.setup;
+      const auto expect_same = [&](const FixedQuadratic& a, const FixedQuadratic& b) {
+        EXPECT_EQ(a.t0, b.t0);
+        for (const std::int64_t higher : {a.t1, a.t2, a.t3, a.t4, a.t5}) ASSERT_EQ(higher, 0);
+      };
+      if (some.plan.flat_light && some.plan.diffuse) {
+        ++flat;
+        expect_same(some.diffuse[0], whole.diffuse[0]);
+      }
+      if (some.plan.flat_light && some.plan.gate_series) expect_same(some.gate, whole.gate);
+      if (some.plan.flat_highlight) expect_same(some.specular, whole.specular);
+      ASSERT_FALSE(::testing::Test::HasFailure());
+    }
+  }
+  EXPECT_GT(flat, kSeeds) << "the cases are not what they are for";
+}
+
+}  // namespace
+}  // namespace phongpipe
