@@ -103,10 +103,17 @@ class SceneComparison {
       return result;
     }
     if (scene.shading.highlight != scene_.shading.highlight) {
-      add_note(result, "R·V, against Phong with R·V");
+      const char* const form = scene.shading.highlight == Highlight::halfway ? "N·H" : "R·V";
+      add_note(result, fmt::format("{}, against Phong with {}", form, form));
     }
     const Drawn& drawn = method.takes_pieces ? pieces_ : whole_;
     cost(method, scene, drawn.visibility, result);
+    const auto fades = [](const Light& light) {
+      return is_attenuated(light) || has_spot_factor(light);
+    };
+    if (scene.lights.size() > 1 || scene.depth_cue || fades(scene.lights.front())) {
+      add_note(result, "costs are those of one light that does not fade");
+    }
     MethodFrame frame = timed_frame(method, scene, drawn, result);
     if (method.name == series_of_hardware()) {
       add_note(result, fmt::format("the series of hardware {}", comparison_.hardware.name));
@@ -123,6 +130,10 @@ class SceneComparison {
     result.name = "best";
     result.source = "weighted minimax, model/shading/quadratics";
     result.is_limit = true;
+    if (scene_.depth_cue) {
+      result.refused = "it has no depth cueing";
+      return result;
+    }
     add_note(result, "the limit of quadratics, offline");
     judge(scene_, pieces_, render_best(scene_, pieces_.triangles.geometry, pieces_.visibility),
           result);

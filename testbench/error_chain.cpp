@@ -9,7 +9,7 @@ namespace phongpipe {
 namespace {
 
 // What one light adds to the pixels of a triangle, link by link; not clamped.
-struct Light {
+struct PassLight {
   Color polynomial = Color::Zero(), rounded = Color::Zero(), table = Color::Zero();
 };
 
@@ -43,7 +43,7 @@ class PassChain {
   }
 
   // Adds what the light gives to the pixel at `x` of the row.
-  void add(int x, Light& light) const {
+  void add(int x, PassLight& light) const {
     for (const Span& span : spans_) {
       const int i = x - span.row.x;
       if (i >= 0 && i < span.row.length) add(span, i, light);
@@ -51,7 +51,7 @@ class PassChain {
   }
 
  private:
-  void add(const Span& span, int i, Light& light) const {
+  void add(const Span& span, int i, PassLight& light) const {
     const double x = span.row.x + i - work_.setup.x, y = span.row.y - work_.setup.y;
     const auto channels = static_cast<std::size_t>(configuration_.channels);
     const int diffuse_fraction = configuration_.diffuse_fraction_bits;
@@ -155,7 +155,7 @@ class TriangleChain {
 
   // The links of pixel i of the row, but the output.
   void at(int i, ErrorChain& chain) const {
-    Light light;
+    PassLight light;
     for (const PassChain& pass : passes_) pass.add(row_.x + i, light);
     chain.exact = exact_[static_cast<std::size_t>(i)];
     chain.polynomial = shown(light.polynomial, i);

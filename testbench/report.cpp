@@ -88,9 +88,9 @@ void report_hardware(Page& page, const Verification& v) {
   };
   page.line("setup",
             "{:.1f} cycles a triangle, on average, for {:.1f} additions, {:.1f} multiplications, "
-            "{:.1f} 1/√",
+            "{:.1f} 1/√, {:.1f} powers",
             each(v.systemc.setup_cycles), each(counts.add), each(counts.multiply),
-            each(counts.rsqrt));
+            each(counts.rsqrt), each(counts.power));
   if (v.triangles_split > 0) {
     page.line(
         "subdivision",
@@ -109,7 +109,7 @@ std::string of_all(Count own, Count all) {
 }
 
 std::size_t operations(const OperationCounts& counts) {
-  return counts.add + counts.multiply + counts.rsqrt;
+  return counts.add + counts.multiply + counts.rsqrt + counts.power;
 }
 
 std::uint64_t operations(const PixelOperations& counts) {
@@ -212,13 +212,14 @@ std::string report_text(const Verification& v, bool color) {
   if (v.rom_error > 0.01) {
     page.line("warning",
               "the ROM errs by up to {:.2f} % of a full highlight; raise "
-              "rom_address_bits, or lower the shininess",
+              "rom_address_bits, or bring the shininess nearer to 1",
               100 * v.rom_error);
   }
   if (v.coefficient_overflows > 0) {
     page.line("overflow", "{}",
               page.verdict(false, fmt::format("{} triangles have values that do not fit their "
-                                              "registers: their pixels may be wrong",
+                                              "registers, so that their pixels may be wrong: is a "
+                                              "light too close or bright, or [depth_cue] narrow?",
                                               v.coefficient_overflows)));
   }
   page.plain(page.verdict(v.passed(), v.passed() ? "PASSED" : "FAILED") + " " + v.scene.string());

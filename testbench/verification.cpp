@@ -112,22 +112,23 @@ ShadedPixel unpack(std::uint64_t packed) {
 
 // Accounts travel from the child that simulates to the parent as text.
 std::string to_text(const Account& a) {
-  json j = {
-      {"mismatches", a.mismatches},
-      {"frame_mismatches", a.frame_mismatches},
-      {"frame_cycles", a.frame_cycles},
-      {"datapath_cycles", a.datapath_cycles},
-      {"setup_cycles", a.setup_cycles},
-      {"rom_load_cycles", a.rom_load_cycles},
-      {"busy", a.datapath_busy_cycles},
-      {"cycles_hash", a.cycles_hash},
-      {"failure", a.failure},
-      {"modules", a.modules},
-      {"seconds", a.seconds},
-      {"setup", {a.setup_operations.add, a.setup_operations.multiply, a.setup_operations.rsqrt}},
-      {"pixel",
-       {a.pixel_operations.additions, a.pixel_operations.multiplications,
-        a.pixel_operations.reads}}};
+  json j = {{"mismatches", a.mismatches},
+            {"frame_mismatches", a.frame_mismatches},
+            {"frame_cycles", a.frame_cycles},
+            {"datapath_cycles", a.datapath_cycles},
+            {"setup_cycles", a.setup_cycles},
+            {"rom_load_cycles", a.rom_load_cycles},
+            {"busy", a.datapath_busy_cycles},
+            {"cycles_hash", a.cycles_hash},
+            {"failure", a.failure},
+            {"modules", a.modules},
+            {"seconds", a.seconds},
+            {"setup",
+             {a.setup_operations.add, a.setup_operations.multiply, a.setup_operations.rsqrt,
+              a.setup_operations.power}},
+            {"pixel",
+             {a.pixel_operations.additions, a.pixel_operations.multiplications,
+              a.pixel_operations.reads}}};
   if (a.first) {
     j["first"] = {{"place", a.first->place},       {"triangle", a.first->triangle},
                   {"cycle", a.first->cycle},       {"model", pack(a.first->model)},
@@ -153,6 +154,7 @@ Account from_text(const std::string& text) {
   j["setup"][0].get_to(a.setup_operations.add);
   j["setup"][1].get_to(a.setup_operations.multiply);
   j["setup"][2].get_to(a.setup_operations.rsqrt);
+  j["setup"][3].get_to(a.setup_operations.power);
   j["pixel"][0].get_to(a.pixel_operations.additions);
   j["pixel"][1].get_to(a.pixel_operations.multiplications);
   j["pixel"][2].get_to(a.pixel_operations.reads);

@@ -25,7 +25,7 @@ enum class IndexRounding { nearest, truncate };
 enum class GateSource { off, diffuse, series };
 
 struct DatapathConfiguration {
-  // The blocks that are built, as the scene's effects ask for (see effects.h).
+  // The blocks that are built, as the scene's effects ask for (see suit_scene).
   int channels = 1;        // 1 (grey) or 3
   bool diffuse = true;     // a series a channel; without it the level stands for it
   bool specular = true;    // series, gate and exponent_rom

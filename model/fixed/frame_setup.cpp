@@ -11,21 +11,6 @@
 namespace phongpipe {
 namespace {
 
-// A highlight is attenuated by the power's base, which for an exponent of 0 makes no difference.
-void require_exponents(const Scene& scene, const Geometry& geometry) {
-  const bool attenuates = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& l) {
-    return is_attenuated(l) || has_spot_factor(l);
-  });
-  for (const Material& material : geometry.materials) {
-    if (attenuates && material.shininess == 0 && (material.specular > 0).any()) {
-      throw InputError(scene.file, 0,
-                       fmt::format("material {}: a shininess of 0 under a light that fades is not "
-                                   "simulated; set a small one, as 0.1, or specular = 0",
-                                   material.name));
-    }
-  }
-}
-
 bool is_grey(const Color& color) {
   return color[0] == color[1] && color[1] == color[2];
 }
@@ -36,6 +21,20 @@ bool is_lit(const Material& material, const Light& light) {
 
 bool is_shiny(const Material& material, const Light& light) {
   return (material.specular * light.color > 0).any();
+}
+
+// A highlight is attenuated by the power's base, which for an exponent of 0 makes no difference.
+void require_exponents(const Scene& scene, const Geometry& geometry) {
+  for (const Light& light : scene.lights) {
+    if (!is_attenuated(light) && !has_spot_factor(light)) continue;
+    for (const Material& material : geometry.materials) {
+      if (material.shininess > 0 || !is_shiny(material, light)) continue;
+      throw InputError(scene.file, 0,
+                       fmt::format("material {}: a shininess of 0 under a light that fades is not "
+                                   "simulated; set shininess = 1 or more, or specular = 0",
+                                   material.name));
+    }
+  }
 }
 
 // Whether `holds` for some material under some light.
@@ -94,7 +93,9 @@ double largest_attenuation(const Light& light, const Geometry& geometry) {
       largest = std::max(largest, distance_attenuation(light, light_vector(light, vertex).norm()));
     }
   }
-  return largest;
+  // A light on a vertex may have any; what is that bright saturates all the same.
+  constexpr double kBrightest = 1e6;
+  return std::min(largest, kBrightest);
 }
 
 LightInput<double> light_input(const Scene& scene, const Light& light, double reference,

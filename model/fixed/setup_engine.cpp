@@ -20,13 +20,9 @@ FixedLinear round_coefficients(const Linear<double>& q, int fraction_bits, bool&
           to_fixed(q.b, fraction_bits, overflow)};
 }
 
-// What double precision may lose in bounds and coefficients, far less than this.
-constexpr double kArithmeticSlack = 1e-9;
-
-// What it may lose in cosines that are equal all over a triangle, some twenty units in the last
-// place; and the turn of normals that are equal.
-constexpr double kCosineNoise = 4e-15;
-constexpr double kNoTurn = 1e-14;
+// What double precision may lose in cosines: a few units in the last place, times the square of the
+// steepest gradient, 256 a pixel, and that of the extent in pixels.
+constexpr double kArithmeticNoise = 2e-11;
 
 }  // namespace
 
@@ -61,61 +57,50 @@ TriangleCoefficients<double> SetupEngine::coefficients(std::uint32_t triangle, s
   return setup_triangle(material.plan, input(triangle, pass, x, y), material.light);
 }
 
-SeriesPlan SetupEngine::reduced_plan(const MaterialSetup& material,
-                                     const TriangleInput<double>& vertices, int longest_row) const {
-  const DatapathConfiguration& configuration = frame_->configuration;
-  const bool leave_out = frame_->effects == Effects::derived;
+SeriesPlan SetupEngine::simplified_plan(const MaterialSetup& material,
+                                        const TriangleInput<double>& vertices) const {
   SeriesPlan plan = material.plan;
+  const auto& [a, b, c] = vertices.normal;
+  if (plan.form.point_light || a != b || b != c) return plan;
+  plan.flat_light = plan.diffuse || plan.gate_series;
+  plan.flat_highlight =
+      plan.specular && !plan.form.local_viewer && plan.form.highlight == Highlight::halfway;
+  return plan;
+}
+
+void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
+                            const TriangleInput<double>& vertices, int longest_row) const {
+  const DatapathConfiguration& configuration = frame_->configuration;
   const TriangleBounds<double> bounds = bound_triangle(plan, vertices, material.light);
   double extent = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     extent = std::max({extent, std::fabs(vertices.x[i]), std::fabs(vertices.y[i])});
   }
+  const double noise = kArithmeticNoise * (1 + extent * extent);
+  const auto slack = [&](int fraction_bits) {
+    return rounding_bound(configuration, fraction_bits, extent, longest_row);
+  };
   if (plan.bound_light) {
-    const double slack =
-        rounding_bound(configuration, configuration.diffuse_fraction_bits, extent, longest_row);
     double least_scale = kOutputMax;  // the gate's
     for (const double scale : material.light.diffuse_scale) {
       if (scale > 0) least_scale = std::min(least_scale, scale);
     }
-    if (leave_out && (bounds.light + kArithmeticSlack) * least_scale + slack <= 0) {
+    const double highest =
+        (bounds.light.high + noise) * least_scale + slack(configuration.diffuse_fraction_bits);
+    if (highest <= 0) {
       plan.diffuse = false;
       if (configuration.gate != GateSource::off) plan.specular = plan.gate_series = false;
     }
   }
   if (plan.bound_highlight && plan.specular) {
-    const double slack =
-        rounding_bound(configuration, configuration.specular_fraction_bits, extent, longest_row);
-    const double highest =
-        (bounds.highlight + kArithmeticSlack) * material.light.specular_scale + slack;
-    plan.dim = highest < material.first_visible_address;
-    if (plan.dim && leave_out) plan.specular = plan.gate_series = false;
+    // What is below 0 reads the word at 0, as long as it does not wrap.
+    const double addresses = material.light.specular_scale;
+    const double off = noise * addresses + slack(configuration.specular_fraction_bits);
+    plan.dim = material.first_visible_address > 0 &&
+               bounds.highlight.high * addresses + off < material.first_visible_address &&
+               bounds.highlight.low * addresses - off > -addresses * (1 << kGuardBits);
+    if (plan.dim && frame_->effects == Effects::derived) plan.specular = plan.gate_series = false;
   }
-  const bool flat = leave_out && plan.bound_light && bounds.turn < kNoTurn;
-  plan.flat_light = flat && (plan.diffuse || plan.gate_series);
-  plan.flat_highlight = flat && plan.specular && plan.bound_highlight;
-  return plan;
-}
-
-bool SetupEngine::rounds_alike(const SeriesPlan& plan, const MaterialSetup& material,
-                               const TriangleCoefficients<double>& flat) const {
-  const DatapathConfiguration& configuration = frame_->configuration;
-  const auto alike = [&](double t0, double scale, int fraction_bits) {
-    const double unit = std::ldexp(1.0, setup_fraction_bits(configuration, fraction_bits));
-    const double noise = kCosineNoise * scale * unit, value = t0 * unit;
-    return noise < 0.5 && std::fabs(value - std::floor(value) - 0.5) > noise;
-  };
-  const LightInput<double>& light = material.light;
-  bool all = true;
-  if (plan.flat_light) {
-    const int bits = configuration.diffuse_fraction_bits;
-    for (std::size_t c = 0; plan.diffuse && c < static_cast<std::size_t>(plan.channels); ++c) {
-      all = all && alike(flat.diffuse[c].t0, light.diffuse_scale[c], bits);
-    }
-    all = all && (!plan.gate_series || alike(flat.gate.t0, light.gate_scale, bits));
-  }
-  return all && (!plan.flat_highlight || alike(flat.specular.t0, light.specular_scale,
-                                               configuration.specular_fraction_bits));
 }
 
 TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
@@ -128,12 +113,13 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
   setup.pass = pass;
   setup.material = &frame_->material(pass, geometry_->triangles[triangle].material);
   const TriangleInput<double> vertices = input(triangle, pass, x, y);
-  setup.plan = reduced_plan(*setup.material, vertices, longest_row);
-  TriangleCoefficients<double> exact = setup_triangle(setup.plan, vertices, setup.material->light);
-  if ((setup.plan.flat_light || setup.plan.flat_highlight) &&
-      !rounds_alike(setup.plan, *setup.material, exact)) {
+  SeriesPlan plan = simplified_plan(*setup.material, vertices);
+  leave_out(plan, *setup.material, vertices, longest_row);
+  const TriangleCoefficients<double> exact = setup_triangle(plan, vertices, setup.material->light);
+  setup.plan = plan;
+  if (frame_->effects == Effects::all) {
+    // The same numbers, at the cost of the whole computation.
     setup.plan.flat_light = setup.plan.flat_highlight = false;
-    exact = setup_triangle(setup.plan, vertices, setup.material->light);
   }
 
   const int fraction = configuration.diffuse_fraction_bits;

@@ -32,7 +32,7 @@ class SetupEngine {
   // series is never evaluated outside the triangle's own normals. `longest_row` in pixels.
   //
   // What provably changes no pixel is left out of the plan: a highlight whose words are all 0,
-  // light on triangles that face away from it, and all but T0 where normals do not turn.
+  // light on triangles that face away from it. Over equal normals a series is its T0.
   TriangleSetup set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
                        int longest_row) const;
 
@@ -42,12 +42,12 @@ class SetupEngine {
 
  private:
   TriangleInput<double> input(std::uint32_t triangle, std::uint32_t pass, int x, int y) const;
-  SeriesPlan reduced_plan(const MaterialSetup& material, const TriangleInput<double>& vertices,
-                          int longest_row) const;
-  // Whether coefficients that are T0 alone are, once rounded, those of the whole computation, which
-  // adds the noise of double precision.
-  bool rounds_alike(const SeriesPlan& plan, const MaterialSetup& material,
-                    const TriangleCoefficients<double>& flat) const;
+  // The material's plan, but that series over equal normals are constant.
+  SeriesPlan simplified_plan(const MaterialSetup& material,
+                             const TriangleInput<double>& vertices) const;
+  // Takes out of the plan what provably changes no pixel.
+  void leave_out(SeriesPlan& plan, const MaterialSetup& material,
+                 const TriangleInput<double>& vertices, int longest_row) const;
 
   const FrameSetup* frame_;
   const Geometry* geometry_;

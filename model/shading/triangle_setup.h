@@ -56,12 +56,11 @@ struct LightInput {
   T gate_scale;
 };
 
-// The highest values, as cosines, that the series of a triangle can have: of light as the weighted
-// and focused fits have it, of the highlight as six_point fits it.
+// What the series of a triangle can reach, as cosines: of light as the weighted and focused fits
+// have it, of the highlight as six_point fits it.
 template <typename T>
 struct TriangleBounds {
-  T light{}, highlight{};
-  T turn{};  // of the normals, see FieldExtent
+  SeriesRange<T> light, highlight;
 };
 
 template <typename T>
@@ -71,14 +70,13 @@ TriangleBounds<T> bound_triangle(const SeriesPlan& plan, const TriangleInput<T>&
   if (!plan.bound_light && !plan.bound_highlight) return bounds;
   const FieldExtent<T> extent(squared_length(triangle.normal));
   const T remainder = taylor_remainder(extent.turn);
-  bounds.turn = extent.turn;
   if (plan.bound_light) {
     const auto range = cosine_range(triangle.normal, extent, light.terms.to_light);
-    bounds.light = highest_value(range, remainder, kNinePointNorm);
+    bounds.light = series_range(range, remainder, kNinePointNorm);
   }
   if (plan.bound_highlight) {
     const auto range = cosine_range(triangle.normal, extent, light.terms.halfway);
-    bounds.highlight = highest_value(range, remainder, kSixPointNorm);
+    bounds.highlight = series_range(range, remainder, kSixPointNorm);
   }
   return bounds;
 }

@@ -10,14 +10,9 @@
 #pragma once
 
 #include "model/shading/quadratics/cosine_samples.h"
-#include "model/shading/quadratics/sensitivity.h"
+#include "model/shading/quadratics/truncated_series.h"
 
 namespace phongpipe {
-
-template <typename T>
-T minimum(const T& a, const T& b) {
-  return -maximum(T(-a), T(-b));
-}
 
 // The extent of a vector field that is linear over a triangle.
 template <typename T>
@@ -28,10 +23,10 @@ struct FieldExtent {
   // `form`: |N|², whose Bernstein coefficients bound it.
   explicit FieldExtent(const QuadraticForm<T>& form) {
     constexpr double kTiny = 1e-30;  // for rsqrt, where there is no bound or nothing turns
-    const auto least = [](const std::array<T, 3>& v) { return minimum(v[0], minimum(v[1], v[2])); };
+    const auto least = [](const std::array<T, 3>& v) { return at_most(v[0], at_most(v[1], v[2])); };
     const auto most = [](const std::array<T, 3>& v) { return maximum(v[0], maximum(v[1], v[2])); };
     const auto& [square, cross] = form;
-    const T shortest = minimum(half(least(cross)), least(square));
+    const T shortest = at_most(half(least(cross)), least(square));
     inverse_shortest = rsqrt(maximum(shortest, T(kTiny)));
     inverse_longest = rsqrt(most(square));
     // Squares of the edges between the values, and of the ways from their middles to the corners.
@@ -55,8 +50,8 @@ struct CosineRange {
 
   CosineRange(const T& lowest_product, const T& highest_product, const T& inverse_shortest,
               const T& inverse_longest)
-      : low(minimum(lowest_product * inverse_shortest, lowest_product * inverse_longest)),
-        high(minimum(
+      : low(at_most(lowest_product * inverse_shortest, lowest_product * inverse_longest)),
+        high(at_most(
             T(1), maximum(highest_product * inverse_shortest, highest_product * inverse_longest))) {
   }
 };
@@ -66,7 +61,7 @@ template <typename T>
 CosineRange<T> cosine_range(const std::array<Vector3<T>, 3>& normal, const FieldExtent<T>& extent,
                             const Vector3<T>& m) {
   const T a = normal[0].dot(m), b = normal[1].dot(m), c = normal[2].dot(m);
-  return {minimum(a, minimum(b, c)), maximum(a, maximum(b, c)), extent.inverse_shortest,
+  return {at_most(a, at_most(b, c)), maximum(a, maximum(b, c)), extent.inverse_shortest,
           extent.inverse_longest};
 }
 
@@ -80,10 +75,16 @@ T taylor_remainder(const T& turn) {
 constexpr double kSixPointNorm = 5.0 / 3;
 constexpr double kNinePointNorm = 2.4667;
 
-// The highest value a series by a fit of this norm can have, where the cosine is `range`.
+// The lowest and highest values a series by a fit of this norm can have, where the cosine is
+// `range`.
 template <typename T>
-T highest_value(const CosineRange<T>& range, const T& remainder, double norm) {
-  return range.high + remainder * T(1 + norm);
+struct SeriesRange {
+  T low{}, high{};
+};
+template <typename T>
+SeriesRange<T> series_range(const CosineRange<T>& range, const T& remainder, double norm) {
+  const T off = remainder * T(1 + norm);
+  return {range.low - off, range.high + off};
 }
 
 }  // namespace phongpipe
