@@ -115,7 +115,7 @@ class SceneComparison {
       add_note(result, "costs are those of one light that does not fade");
     }
     MethodFrame frame = timed_frame(method, scene, drawn, result);
-    if (method.name == series_of_hardware()) {
+    if (method.name == method_of(comparison_.hardware, scene_)) {
       add_note(result, fmt::format("the series of hardware {}", comparison_.hardware.name));
     }
     if (frame.exact_spans > 0) {
@@ -143,13 +143,6 @@ class SceneComparison {
  private:
   static void add_note(MethodResult& result, const std::string& note) {
     result.note += (result.note.empty() ? "" : "; ") + note;
-  }
-
-  // The method that has the configured series in real arithmetic.
-  std::string series_of_hardware() const {
-    const auto fit = static_cast<std::size_t>(comparison_.hardware.datapath.series_fit);
-    const bool local = scene_.shading.viewer == Viewer::local;
-    return std::string(series_fit_names()[fit]) + (local ? "-local" : "");
   }
 
   // The least of a few passes is the one least disturbed.

@@ -182,6 +182,12 @@ void suit_scene(Hardware& hardware, const Scene& scene, const Geometry& geometry
   hardware.datapath = suit_scene(hardware.datapath, scene, geometry, effects);
 }
 
+std::string method_of(const Hardware& hardware, const Scene& scene) {
+  std::string name(series_fit_names()[static_cast<std::size_t>(hardware.datapath.series_fit)]);
+  if (scene.shading.viewer == Viewer::local) name += kLocalSuffix;
+  return name;
+}
+
 std::string configuration_hash(const Hardware& hardware) {
   Hardware copy = hardware;
   copy.choose_channels = false;

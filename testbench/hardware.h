@@ -44,6 +44,10 @@ Hardware load_hardware(const std::string& name, const std::vector<std::string>& 
 void suit_scene(Hardware& hardware, const Scene& scene, const Geometry& geometry,
                 Effects effects = Effects::derived);
 
+// The method that is the hardware's series in real arithmetic; those for a local viewer end alike.
+constexpr std::string_view kLocalSuffix = "-local";
+std::string method_of(const Hardware& hardware, const Scene& scene);
+
 // Identifies a result: a hash over every setting and the technology, 16 hexadecimal digits.
 std::string configuration_hash(const Hardware& hardware);
 

@@ -1,6 +1,8 @@
 // phongpipe render: one picture, in real or fixed arithmetic.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <sstream>
 
@@ -20,19 +22,16 @@ namespace fs = std::filesystem;
 
 enum class Arithmetic { real, fixed };
 
-// What the pipeline computes, and the method whose setup it has.
-constexpr const char* kPipelineMethod = "taylor";
-
 struct Options {
   std::string scene;
   fs::path output, triangles;
   HardwareOptions hardware;
-  std::string method = kPipelineMethod;
+  std::optional<std::string> method;  // none: the series of the hardware
   std::optional<PowerKind> power;
   std::optional<Arithmetic> arithmetic;
 };
 
-const ShadingMethod& method_of(const std::string& name) {
+const ShadingMethod& find_method(const std::string& name) {
   if (const ShadingMethod* method = find_shading_method(name)) return *method;
   std::vector<std::string> known;
   for (const ShadingMethod& method : shading_methods()) known.emplace_back(method.name);
@@ -42,12 +41,26 @@ const ShadingMethod& method_of(const std::string& name) {
                                              : fmt::format("did you mean {}?", close)));
 }
 
-void check(const Options& options, Arithmetic arithmetic) {
-  if (arithmetic == Arithmetic::fixed && options.method != kPipelineMethod) {
-    throw InputError(
-        fmt::format("{} has no fixed-point form; use --arithmetic real, or --method {}",
-                    options.method, kPipelineMethod));
+// The hardware, with the series of the method that was asked for.
+Hardware hardware_of(const Options& options) {
+  Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
+  if (!options.method) return hardware;
+  std::string_view name = *options.method;
+  const std::size_t local = name.rfind(kLocalSuffix);
+  if (local != std::string_view::npos) name = name.substr(0, local);
+  const auto names = series_fit_names();
+  const auto fit = std::find(names.begin(), names.end(), name);
+  if (fit == names.end()) {
+    throw InputError(fmt::format(
+        "{} has no fixed-point form; use --arithmetic real, or a series of the pipeline: {}",
+        *options.method, fmt::join(names, ", ")));
   }
+  hardware.datapath.series_fit = static_cast<SeriesFit>(fit - names.begin());
+  if (hardware.datapath.series_fit == SeriesFit::taylor) hardware.datapath.subdivide_degrees = 0;
+  return hardware;
+}
+
+void check(const Options& options, Arithmetic arithmetic) {
   if (arithmetic == Arithmetic::fixed && options.power) {
     throw InputError(
         "the hardware has a table of its own, see rom_address_bits; use --power with --arithmetic "
@@ -67,7 +80,7 @@ void check(const Options& options, Arithmetic arithmetic) {
 // The bits of the hardware, as colours in LSB.
 std::vector<Color> render_fixed(const Options& options, const Scene& scene,
                                 const Geometry& geometry) {
-  Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
+  Hardware hardware = hardware_of(options);
   suit_scene(hardware, scene, geometry);
   const Geometry pieces = subdivide(scene, geometry, hardware.datapath.subdivide_degrees).geometry;
   const FrameSetup frame(scene, pieces, hardware.datapath, hardware.pipeline.depth_bits);
@@ -80,15 +93,18 @@ std::vector<Color> render_fixed(const Options& options, const Scene& scene,
 }
 
 std::vector<Color> render_real(const Options& options, const Scene& scene, const Geometry& whole) {
-  const ShadingMethod& method = method_of(options.method);
   const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
+  const ShadingMethod& method =
+      find_method(options.method ? *options.method : method_of(hardware, scene));
   const Geometry geometry =
       subdivide(scene, whole, method.takes_pieces ? hardware.datapath.subdivide_degrees : 0)
           .geometry;
   const Visibility visibility = find_visible(scene, geometry);
   if (method.name == "phong") return render_phong(scene, geometry, visibility);
   if (const auto reason = refusal(method, scene, geometry.materials)) {
-    throw InputError(scene.file, 0, fmt::format("{} cannot render it: {}", method.name, *reason));
+    throw InputError(
+        scene.file, 0,
+        fmt::format("{} cannot render it in real arithmetic: {}", method.name, *reason));
   }
   return render_method(scene, geometry, visibility, method,
                        options.power.value_or(PowerKind::exact))
@@ -96,8 +112,8 @@ std::vector<Color> render_real(const Options& options, const Scene& scene, const
 }
 
 int render(const Options& options) {
-  const Arithmetic arithmetic = options.arithmetic.value_or(
-      options.method == kPipelineMethod ? Arithmetic::fixed : Arithmetic::real);
+  const Arithmetic arithmetic =
+      options.arithmetic.value_or(options.method ? Arithmetic::real : Arithmetic::fixed);
   check(options, arithmetic);
   Progress progress;
   progress("reading the scene");
@@ -141,11 +157,13 @@ void add_render(CLI::App& application, Run& run) {
       ->type_name("SCENE");
   command->add_option("-o,--output", options->output, "Picture: .png, or .pfm for floats in LSB")
       ->type_name("FILE");
-  command->add_option("--method", options->method, "Shading method, see below")
-      ->capture_default_str();
+  command
+      ->add_option("--method", options->method,
+                   "Shading method, see below; none: what the hardware computes")
+      ->type_name("METHOD");
   add_choice<Arithmetic>(*command, "--arithmetic", options->arithmetic,
                          {{"real", Arithmetic::real}, {"fixed", Arithmetic::fixed}},
-                         "fixed for taylor, else real",
+                         "real where a method is given, else fixed",
                          "real (double precision) or fixed (the hardware's bits)");
   add_power_option(*command, options->power);
   command

@@ -370,6 +370,22 @@ TEST_F(Program, RenderWritesPngPfmAndTriangles) {
   EXPECT_EQ(run({"render", "sphere", "--arithmetic", "real", "-o", file("b.png")}).status, 0);
 }
 
+// A picture by no method is the hardware's; by a method of the pipeline in fixed arithmetic it is
+// the hardware's with that series.
+TEST_F(Program, RenderShowsWhatTheHardwareComputes) {
+  const auto picture = [this](std::vector<std::string> how) {
+    how.insert(how.begin(), {"render", "sphere", "-o", file("p.pfm")});
+    EXPECT_EQ(run(how).status, 0);
+    return read_whole_file(file("p.pfm"));
+  };
+  const std::string own = picture({});
+  EXPECT_EQ(own, picture({"--method", "weighted", "--arithmetic", "fixed"}));
+  const std::string paper = picture({"--hardware", "paper-1k"});
+  EXPECT_EQ(paper, picture({"--method", "taylor", "--arithmetic", "fixed"}));
+  EXPECT_NE(own, paper);
+  EXPECT_NE(paper, picture({"--method", "taylor"}));
+}
+
 TEST_F(Program, PhongRendersWhatThePipelineRefuses) {
   std::string text = read_whole_file(fs::path(PHONGPIPE_SCENES) / "sphere.toml");
   text.replace(text.find("shininess"), 0, "shininess = 0 # ");
