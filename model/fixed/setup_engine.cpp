@@ -24,9 +24,8 @@ FixedLinear round_coefficients(const Linear<double>& q, int fraction_bits, bool&
 constexpr double kArithmeticSlack = 1e-9;
 
 // What it may lose in cosines that are equal all over a triangle, some twenty units in the last
-// place; and the turn of normals that are equal.
+// place.
 constexpr double kCosineNoise = 4e-15;
-constexpr double kNoTurn = 1e-14;
 
 }  // namespace
 
@@ -91,7 +90,10 @@ SeriesPlan SetupEngine::reduced_plan(const MaterialSetup& material,
     plan.dim = highest < material.first_visible_address;
     if (plan.dim && leave_out) plan.specular = plan.gate_series = false;
   }
-  const bool flat = leave_out && plan.bound_light && bounds.turn < kNoTurn;
+  // Equal to the bit: a turn below 1e-8 is lost in the squares that bounds are made of.
+  const auto& normal = vertices.normal;
+  const bool flat =
+      leave_out && plan.bound_light && normal[0] == normal[1] && normal[0] == normal[2];
   plan.flat_light = flat && (plan.diffuse || plan.gate_series);
   plan.flat_highlight = flat && plan.specular && plan.bound_highlight;
   return plan;

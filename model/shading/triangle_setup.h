@@ -61,7 +61,6 @@ struct LightInput {
 template <typename T>
 struct TriangleBounds {
   T light{}, highlight{};
-  T turn{};  // of the normals, see FieldExtent
 };
 
 template <typename T>
@@ -71,7 +70,6 @@ TriangleBounds<T> bound_triangle(const SeriesPlan& plan, const TriangleInput<T>&
   if (!plan.bound_light && !plan.bound_highlight) return bounds;
   const FieldExtent<T> extent(squared_length(triangle.normal));
   const T remainder = taylor_remainder(extent.turn);
-  bounds.turn = extent.turn;
   if (plan.bound_light) {
     const auto range = cosine_range(triangle.normal, extent, light.terms.to_light);
     const bool six = plan.form.fit == SeriesFit::six_point;
