@@ -50,8 +50,7 @@ Dataflow record_setup(const SeriesPlan& plan) {
   Recording recording;
   const TriangleInput<Recorded> triangle;
   const LightInput<Recorded> light;
-  bound_triangle(plan, triangle, light);
-  setup_triangle(plan, triangle, light);
+  setup_triangle(plan, triangle, light, bound_triangle(plan, triangle, light));
   return recording.dataflow();
 }
 

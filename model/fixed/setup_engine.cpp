@@ -69,9 +69,9 @@ SeriesPlan SetupEngine::simplified_plan(const MaterialSetup& material,
 }
 
 void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
-                            const TriangleInput<double>& vertices, int longest_row) const {
+                            const TriangleInput<double>& vertices,
+                            const TriangleBounds<double>& bounds, int longest_row) const {
   const DatapathConfiguration& configuration = frame_->configuration;
-  const TriangleBounds<double> bounds = bound_triangle(plan, vertices, material.light);
   double extent = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     extent = std::max({extent, std::fabs(vertices.x[i]), std::fabs(vertices.y[i])});
@@ -101,6 +101,8 @@ void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
                bounds.highlight.low * addresses - off > -addresses * (1 << kGuardBits);
     if (plan.dim && frame_->effects == Effects::derived) plan.specular = plan.gate_series = false;
   }
+  plan.flat_light = plan.flat_light && (plan.diffuse || plan.gate_series);
+  plan.flat_highlight = plan.flat_highlight && plan.specular;
 }
 
 TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
@@ -114,8 +116,10 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
   setup.material = &frame_->material(pass, geometry_->triangles[triangle].material);
   const TriangleInput<double> vertices = input(triangle, pass, x, y);
   SeriesPlan plan = simplified_plan(*setup.material, vertices);
-  leave_out(plan, *setup.material, vertices, longest_row);
-  const TriangleCoefficients<double> exact = setup_triangle(plan, vertices, setup.material->light);
+  const TriangleBounds<double> bounds = bound_triangle(plan, vertices, setup.material->light);
+  leave_out(plan, *setup.material, vertices, bounds, longest_row);
+  const TriangleCoefficients<double> exact =
+      setup_triangle(plan, vertices, setup.material->light, bounds);
   setup.plan = plan;
   if (frame_->effects == Effects::all) {
     // The same numbers, at the cost of the whole computation.

@@ -47,7 +47,8 @@ class SetupEngine {
                              const TriangleInput<double>& vertices) const;
   // Takes out of the plan what provably changes no pixel.
   void leave_out(SeriesPlan& plan, const MaterialSetup& material,
-                 const TriangleInput<double>& vertices, int longest_row) const;
+                 const TriangleInput<double>& vertices, const TriangleBounds<double>& bounds,
+                 int longest_row) const;
 
   const FrameSetup* frame_;
   const Geometry* geometry_;

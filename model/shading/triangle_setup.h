@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <tuple>
 
 #include "model/shading/quadratics/reflection_series.h"
@@ -61,6 +62,7 @@ struct LightInput {
 template <typename T>
 struct TriangleBounds {
   SeriesRange<T> light, highlight;
+  std::optional<QuadraticForm<T>> squared_length;  // of the normals, which setup needs again
 };
 
 template <typename T>
@@ -68,7 +70,8 @@ TriangleBounds<T> bound_triangle(const SeriesPlan& plan, const TriangleInput<T>&
                                  const LightInput<T>& light) {
   TriangleBounds<T> bounds;
   if (!plan.bound_light && !plan.bound_highlight) return bounds;
-  const FieldExtent<T> extent(squared_length(triangle.normal));
+  bounds.squared_length = squared_length(triangle.normal);
+  const FieldExtent<T> extent(*bounds.squared_length);
   const T remainder = taylor_remainder(extent.turn);
   if (plan.bound_light) {
     const auto range = cosine_range(triangle.normal, extent, light.terms.to_light);
@@ -90,9 +93,11 @@ struct TriangleCoefficients {
   Linear<T> own_share;
 };
 
+// `bounds`: where they have been computed.
 template <typename T>
 TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInput<T>& triangle,
-                                       const LightInput<T>& light) {
+                                       const LightInput<T>& light,
+                                       const TriangleBounds<T>& bounds = {}) {
   const Interpolator<T> interpolate(triangle.x, triangle.y);
   TriangleCoefficients<T> result;
   const auto interpolated = [&](const std::array<T, 3>& q) {
@@ -110,7 +115,8 @@ TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInp
     form.fit = fit;
     form.wanted = wanted;
     return reflection_series(form, interpolate, triangle.normal, triangle.eye, triangle.light,
-                             light.terms);
+                             light.terms,
+                             bounds.squared_length ? &*bounds.squared_length : nullptr);
   };
   const bool wants_light = plan.diffuse || plan.gate_series;
   const bool together =

@@ -95,6 +95,9 @@ class NormalSamples {
  public:
   explicit NormalSamples(const std::array<Vector3<T>, 3>& normal)
       : NormalSamples(normal, squared_length(normal).template sampled<points>()) {}
+  // With the form that is known already.
+  NormalSamples(const std::array<Vector3<T>, 3>& normal, const QuadraticForm<T>& squared_length)
+      : NormalSamples(normal, squared_length.template sampled<points>()) {}
   // For vectors that may vanish, where forms are nothing but the rounding of their terms: squared
   // lengths count as no less than `least` times the sum of those at the corners.
   NormalSamples(const std::array<Vector3<T>, 3>& normal, double least)

@@ -13,8 +13,10 @@ namespace phongpipe {
 template <typename T, typename M>
 class CosineReflection {
  public:
-  CosineReflection(const Corners<T>& normal, const Vector3<T>& to_light, const M& halfway)
-      : normal_(normal), to_light_(to_light), halfway_(halfway) {}
+  // `squared_length`: of the normals, where it is known already.
+  CosineReflection(const Corners<T>& normal, const Vector3<T>& to_light, const M& halfway,
+                   const QuadraticForm<T>* squared_length = nullptr)
+      : normal_(normal), to_light_(to_light), halfway_(halfway), squared_length_(squared_length) {}
 
   CosineSeries<T> expanded(const Interpolator<T>& interpolate, const SeriesWanted& wanted) const {
     const NormalExpansion<T> normal(interpolate(normal_[0], normal_[1], normal_[2]));
@@ -32,7 +34,8 @@ class CosineReflection {
 
   template <std::size_t lights, std::size_t highlights>
   ReflectedSamples<T, lights, highlights> sampled() const {
-    const NormalSamples<T, std::max(lights, highlights)> normal(normal_);
+    using Samples = NormalSamples<T, std::max(lights, highlights)>;
+    const Samples normal = squared_length_ ? Samples(normal_, *squared_length_) : Samples(normal_);
     ReflectedSamples<T, lights, highlights> result;
     if constexpr (lights > 0) result.light = normal.template cosines<lights>(to_light_);
     if constexpr (highlights > 0) result.highlight = normal.template cosines<highlights>(halfway_);
@@ -61,14 +64,16 @@ class CosineReflection {
   Corners<T> normal_;
   Vector3<T> to_light_;
   M halfway_;
+  const QuadraticForm<T>* squared_length_;
 };
 
 // `halfway`: one unit vector, or one at each corner. `sharpness`: shininess − 1.
 template <typename T, typename M>
 CosineSeries<T> fit_series(SeriesFit fit, const Interpolator<T>& interpolate,
                            const Corners<T>& normal, const Vector3<T>& to_light, const M& halfway,
-                           const T& sharpness, const SeriesWanted& wanted = {}) {
-  const CosineReflection<T, M> reflection(normal, to_light, halfway);
+                           const T& sharpness, const SeriesWanted& wanted = {},
+                           const QuadraticForm<T>* squared_length = nullptr) {
+  const CosineReflection<T, M> reflection(normal, to_light, halfway, squared_length);
   return fitted_series(fit, interpolate, reflection, sharpness, wanted);
 }
 

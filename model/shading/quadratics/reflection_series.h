@@ -189,14 +189,15 @@ class GeneralReflection {
 };
 
 // `eye` and `light`: from the surface, of true length; read for a local viewer and for a light at a
-// finite distance only.
+// finite distance only. `squared_length`: of the normals, where it is known already.
 template <typename T>
 CosineSeries<T> reflection_series(const ReflectionForm& form, const Interpolator<T>& interpolate,
                                   const Corners<T>& normal, const Corners<T>& eye,
-                                  const Corners<T>& light, const ReflectionTerms<T>& terms) {
+                                  const Corners<T>& light, const ReflectionTerms<T>& terms,
+                                  const QuadraticForm<T>* squared_length = nullptr) {
   const auto cosines = [&](const auto& halfway) {
     return fit_series(form.fit, interpolate, normal, terms.to_light, halfway, terms.sharpness,
-                      form.wanted);
+                      form.wanted, squared_length);
   };
   const auto general = [&](const auto& l, const auto& e) {
     using L = std::decay_t<decltype(l)>;

@@ -123,7 +123,7 @@ class SharpPawn : public testing::TestWithParam<int> {
                  }};
 };
 
-// All tests are paid for, those of light too, and all that they save counts: half, and little more.
+// All tests are paid for, those of light too, and all that they save counts.
 TEST_P(SharpPawn, HalfTheHighlightsSetupIsSavedTestsIncluded) {
   const FrameSetup frame = pawn_.frame();
   OperationsOf operations;
@@ -138,7 +138,7 @@ TEST_P(SharpPawn, HalfTheHighlightsSetupIsSavedTestsIncluded) {
   const double of_highlights = static_cast<double>(highlights);
   EXPECT_GE((static_cast<double>(full) - static_cast<double>(executed)) / of_highlights, 0.5);
   // Of the highlight alone, though it pays for all tests.
-  EXPECT_GE(1 - static_cast<double>(more) / of_highlights, 0.4);
+  EXPECT_GE(1 - static_cast<double>(more) / of_highlights, 0.5);
   EXPECT_EQ(executed, execute(frame, pawn_.geometry()).setup) << "the simulation counts the same";
 }
 
@@ -256,7 +256,12 @@ TEST(Elision, OfFlatTrianglesLeavesTheBitsOfT0) {
     Geometry geometry = random_geometry(random, scene, 4, 30);
     for (ScreenTriangle& triangle : geometry.triangles) {
       const Vec3 normal = random.unit_near(Vec3(0, 0, 1), 80) * random.uniform(0.5, 1.5);
+      // One in five is bent ever so little, at all corners or at one, and no longer flat.
+      const double bend = seed % 5 == 1 ? std::pow(10, random.uniform(-13, -3)) : 0;
       for (ScreenVertex& vertex : triangle.vertices) vertex.normal = normal;
+      for (std::size_t i = seed % 2 == 0 ? 0 : 2; i < 3; ++i) {
+        triangle.vertices[i].normal += bend * random.unit();
+      }
     }
     // Now and then the light comes along a normal, so that the cosine is 1 and T0, with a colour of
     // 1/32 in sixteenths of an LSB, half way between two numbers.
@@ -292,6 +297,105 @@ TEST(Elision, OfFlatTrianglesLeavesTheBitsOfT0) {
   }
   EXPECT_GT(flat, kSeeds) << "the cases are not what they are for";
 }
+
+// Registers of few fraction bits, whose rounding lifts series over the gate or into the table's
+// words though the exact ones stay below: what is left out must allow for it.
+class CoarseRegisters : public testing::TestWithParam<Anchor> {
+ protected:
+  static constexpr unsigned kFirstSeed = 401, kSeeds = 4000;
+
+  // A triangle of small turn whose highest corner has the cosine `highest` to `m`.
+  static ScreenTriangle triangle_below(Random& random, const Scene& scene, const Vec3& m,
+                                       double highest) {
+    ScreenTriangle triangle = random_triangle(random, scene.image, random.uniform(5, 40));
+    const Vec3 side = m.cross(random.unit()).normalized();
+    const double widest = random.uniform(0.001, 0.03);
+    for (ScreenVertex& vertex : triangle.vertices) {
+      const double cosine = highest - random.uniform(0, widest);
+      const Vec3 across = (side + random.uniform(-widest, widest) * m.cross(side)).normalized();
+      vertex.normal = cosine * m + std::sqrt(1 - cosine * cosine) * across;
+    }
+    return triangle;
+  }
+
+  // Draws both ways; whether the own way leaves out what `left_out` asks for.
+  template <typename LeftOut>
+  static bool agrees(const Scene& scene, const Geometry& geometry, const DatapathConfiguration& c,
+                     LeftOut left_out) {
+    const FrameSetup own(scene, geometry, c, 24), all(scene, geometry, c, 24, Effects::all);
+    EXPECT_TRUE(run_model(own, geometry).colors() == run_model(all, geometry).colors());
+    TriangleWork work;
+    return FrontEnd(own, geometry).set_up(0, 0, work) == SetupOutcome::ready &&
+           left_out(work.setup.plan);
+  }
+  static DatapathConfiguration configuration(Random& random) {
+    DatapathConfiguration c;
+    c.anchor = GetParam();
+    c.series_fit = static_cast<SeriesFit>(random.integer(1, 3));
+    return c;
+  }
+};
+
+// Just behind the light's horizon, with a highlight that the gate alone hides.
+TEST_P(CoarseRegisters, LeaveOutNoLightThatRoundingLetsThrough) {
+  std::size_t dark = 0;
+  for (unsigned seed = kFirstSeed; seed < kFirstSeed + kSeeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Scene scene = lit_scene(100, 100);
+    Geometry geometry;
+    // Channels of unlike scales, or none, where the gate's series alone decides.
+    geometry.materials = {grey_material(0, 0.8, 1)};
+    if (random.integer(0, 3) > 0) {
+      geometry.materials[0].diffuse = Color(random.uniform(0.1, 1), random.uniform(0, 0.1), 0);
+    }
+    geometry.triangles = {triangle_below(random, scene, -scene.lights.front().direction,
+                                         -std::pow(10, random.uniform(-6, -0.5)))};
+    DatapathConfiguration c = configuration(random);
+    c.channels = 3;
+    c.diffuse_fraction_bits = random.integer(4, 12);
+    // A level that the least number more rounds to the next LSB.
+    const double last = 0.5 - std::ldexp(1.0, -c.diffuse_fraction_bits);
+    geometry.materials[0].ambient = Color::Constant((20 + last) / kOutputMax);
+    const bool lit = (geometry.materials[0].diffuse > 0).any();
+    c.gate = !lit || random.integer(0, 1) == 0 ? GateSource::series
+             : random.integer(0, 2) == 0       ? GateSource::off
+                                               : GateSource::diffuse;
+    dark += agrees(scene, geometry, c,
+                   [](const SeriesPlan& plan) { return !plan.diffuse && !plan.gate_series; });
+    ASSERT_FALSE(HasFailure());
+  }
+  EXPECT_GT(dark, kSeeds / 20);
+  EXPECT_LT(dark, kSeeds * 19 / 20);
+}
+
+// Just outside the highlight.
+TEST_P(CoarseRegisters, LeaveOutNoHighlightThatRoundingShows) {
+  std::size_t dim = 0;
+  for (unsigned seed = kFirstSeed; seed < kFirstSeed + kSeeds; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    Random random(seed);
+    const Scene scene = lit_scene(100, 100);
+    Geometry geometry;
+    geometry.materials = {grey_material(0.3, 1, random.uniform(5, 200))};
+    geometry.triangles.resize(1);
+    DatapathConfiguration c = configuration(random);
+    c.specular_fraction_bits = random.integer(1, 10);
+    const MaterialSetup material = FrameSetup(scene, geometry, c, 24).materials.front();
+    const double least = material.first_visible_address / material.light.specular_scale;
+    geometry.triangles = {triangle_below(random, scene, material.light.terms.halfway,
+                                         least - std::pow(10, random.uniform(-6, -0.5)))};
+    dim += agrees(scene, geometry, c, [](const SeriesPlan& plan) { return !plan.specular; });
+    ASSERT_FALSE(HasFailure());
+  }
+  EXPECT_GT(dim, kSeeds / 20);
+  EXPECT_LT(dim, kSeeds * 19 / 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Anchors, CoarseRegisters, testing::Values(Anchor::triangle, Anchor::span),
+                         [](const testing::TestParamInfo<Anchor>& info) {
+                           return info.param == Anchor::triangle ? "ByTriangle" : "BySpan";
+                         });
 
 }  // namespace
 }  // namespace phongpipe
