@@ -35,14 +35,11 @@ class SetupEngine : public sc_core::sc_module {
   }
 
   void start_next() {
-    auto work = std::make_shared<TriangleWork>();
+    const auto work = std::make_shared<TriangleWork>();
     work_ = nullptr;
     cycles_left_ = 0;
-    while (work_ == nullptr && !next_.done()) {
-      if (context_.set_up(next_, *work, cycles_left_) == SetupOutcome::ready) {
-        work_ = std::move(work);
-      }
-      next_.advance();
+    for (; work_ == nullptr && !next_.done(); next_.advance()) {
+      if (context_.set_up(next_, *work, cycles_left_) == SetupOutcome::ready) work_ = work;
     }
   }
 
