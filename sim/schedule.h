@@ -1,7 +1,7 @@
 // The setup engine's time: a recorded dataflow on a given number of units.
 #pragma once
 
-#include <vector>
+#include <deque>
 
 #include "model/shading/dataflow.h"
 #include "model/shading/triangle_setup.h"
@@ -30,7 +30,7 @@ class SetupTimes {
 
  private:
   const PipelineConfiguration* units_;
-  std::vector<Cost> known_;  // a few
+  std::deque<Cost> known_;  // a few; those given away stay where they are
 };
 
 }  // namespace phongpipe
