@@ -109,7 +109,7 @@ TEST(RandomEffects, NothingDiffersInAnyAccount) {
   const char* const given = std::getenv("PHONGPIPE_SEED");
   const unsigned first = given != nullptr ? static_cast<unsigned>(std::atol(given))
                                           : std::random_device{}() % 1'000'000;
-  const int scenes = given != nullptr ? 1 : 60;
+  const int scenes = given != nullptr ? 1 : 40;
   const fs::path file =
       fs::path(::testing::TempDir()) / fmt::format("phongpipe-effects-{}.toml", getpid());
   const Hardware preset = load_hardware("default", {});
