@@ -64,6 +64,7 @@ void simulate_by_clock(FrameContext& context) {
       {setup_engine, span_walker, pixel_datapath, framebuffer, triangles, spans, pixels});
   list_modules(sc_core::sc_get_top_level_objects(), context.result.modules);
   sc_core::sc_start();
+  context.result.pixel_operations = pixel_datapath.operations();
   context.result.framebuffer = framebuffer.take_memory();
 }
 

@@ -42,6 +42,13 @@ class PassChain {
     }
   }
 
+  // Of the pixel's colour under depth cueing.
+  double own_share(int x, int y) const {
+    const Linear<double>& share = real_.own_share;
+    return std::clamp(share.a * (x - work_.setup.x) + share.b * (y - work_.setup.y) + share.c, 0.0,
+                      1.0);
+  }
+
   // Adds what the light gives to the pixel at `x` of the row.
   void add(int x, PassLight& light) const {
     for (const Span& span : spans_) {
@@ -134,12 +141,6 @@ class TriangleChain {
     TriangleWork work;
     for (std::uint32_t pass = 0; pass < frame.passes; ++pass) {
       if (front_end.set_up(triangle, pass, work) == SetupOutcome::nothing) continue;
-      if (pass == 0 && frame.configuration.depth_cue) {
-        const SetupEngine engine(frame, geometry);
-        share_ = engine.coefficients(triangle, pass, work.setup.x, work.setup.y).own_share;
-        share_x_ = work.setup.x;
-        share_y_ = work.setup.y;
-      }
       passes_.emplace_back(scene, geometry, frame, front_end, work);
     }
   }
@@ -166,8 +167,7 @@ class TriangleChain {
  private:
   Color shown(const Color& light, int i) const {
     if (!frame_.configuration.depth_cue) return light.min(kOutputMax);
-    const double x = row_.x + i - share_x_, y = row_.y - share_y_;
-    const double own = std::clamp(share_.a * x + share_.b * y + share_.c, 0.0, 1.0);
+    const double own = passes_.front().own_share(row_.x + i, row_.y);
     return (cue_color_ + (light - cue_color_) * own).min(kOutputMax);
   }
 
@@ -176,8 +176,6 @@ class TriangleChain {
   std::vector<PassChain> passes_;
   std::vector<RowSpan> rows_;
   Color cue_color_ = Color::Zero();
-  Linear<double> share_ = {};
-  int share_x_ = 0, share_y_ = 0;
   RowSpan row_;
   std::vector<Color> exact_;
 };

@@ -42,8 +42,7 @@ class Framebuffer : public sc_core::sc_module {
   bool take(const DepthPixel& pixel) {
     if (depth_test_ && pixel.base) ++depth_test_->operations.additions;
     const auto& [x, y, color] = pixel.pixel;
-    return pixel.base ? memory_.write(x, y, pixel.depth, pixel.triangle, color)
-                      : memory_.add(x, y, pixel.triangle, color);
+    return memory_.take(pixel.base, x, y, pixel.depth, pixel.triangle, color);
   }
 
   FrameContext& context_;

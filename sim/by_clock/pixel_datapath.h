@@ -29,6 +29,7 @@ class PixelDatapath : public sc_core::sc_module {
 
   std::int64_t in_flight() const { return driver_.pixels_in_flight(); }
   std::uint64_t moved() const { return moved_; }
+  PixelOperations operations() const { return blocks_.operations(); }
 
  private:
   void clock() {
@@ -38,7 +39,6 @@ class PixelDatapath : public sc_core::sc_module {
     if (outcome.span_taken) {
       in_flight_.push_back(spans_.front());
       blocks_.shade(spans_.front());
-      context_.result.pixel_operations = blocks_.operations();
       spans_.pop();
     }
     if (outcome.pixel_taken) deliver(outcome.pixel, cycle);

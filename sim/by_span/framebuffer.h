@@ -16,9 +16,7 @@ class Framebuffer : public sc_core::sc_module {
   Cycle take(const Span& span, int i, const ShadedPixel& pixel) {
     count_test(span, 1);
     const std::uint32_t depth = phongpipe::Framebuffer::depth(context_.frame, span, i);
-    const bool taken = span.base
-                           ? memory_.write(pixel.x, pixel.y, depth, span.triangle, pixel.color)
-                           : memory_.add(pixel.x, pixel.y, span.triangle, pixel.color);
+    const bool taken = memory_.take(span.base, pixel.x, pixel.y, depth, span.triangle, pixel.color);
     return context_.framebuffer_cycles(span.base, taken, place_++);
   }
   // The same for each pixel of a span.
