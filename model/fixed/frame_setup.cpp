@@ -29,7 +29,7 @@ void require_exponents(const Scene& scene, const Geometry& geometry) {
     if (!is_attenuated(light) && !has_spot_factor(light)) continue;
     for (const Material& material : geometry.materials) {
       if (material.shininess > 0 || !is_shiny(material, light)) continue;
-      throw InputError(scene.file, 0,
+      throw InputError(scene.source, 0,
                        fmt::format("material {}: a shininess of 0 under a light that fades is not "
                                    "simulated; set shininess = 1 or more, or specular = 0",
                                    material.name));

@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "model/scene/clip.h"
 #include "model/scene/mesh.h"
-#include "model/scene/mesh_file.h"
 #include "model/scene/primitives.h"
 #include "model/scene/projection.h"
-#include "model/scene/triangle_csv.h"
 
 namespace phongpipe {
 namespace {
@@ -49,8 +48,8 @@ class GeometryBuilder {
 
   Geometry build() {
     for (const Object& object : scene_.objects) {
-      if (object.source == Object::Source::triangle_file) {
-        append_csv(object);
+      if (object.screen_triangles) {
+        append_screen_triangles(object);
       } else {
         append_mesh(object, mesh_of(object));
       }
@@ -59,21 +58,18 @@ class GeometryBuilder {
   }
 
  private:
-  // Each mesh file is read once, however many objects show it.
   const Mesh& mesh_of(const Object& object) {
-    if (object.source == Object::Source::primitive) {
-      const Primitive& primitive = *find_primitive(object.name);
+    if (!object.mesh) {
+      const Primitive& primitive = *find_primitive(object.primitive);
       const bool given = object.segments[0] > 0;
       primitive_ = primitive.make(given ? object.segments : primitive.default_segments);
       return primitive_;
     }
-    const auto [entry, is_new] = mesh_files_.try_emplace(object.file);
-    if (is_new) {
-      entry->second = load_mesh(object.file);
-      const std::vector<std::string>& notes = entry->second.notes;
+    if (noted_.insert(object.mesh.get()).second) {
+      const std::vector<std::string>& notes = object.mesh->notes;
       geometry_.notes.insert(geometry_.notes.end(), notes.begin(), notes.end());
     }
-    return entry->second;
+    return *object.mesh;
   }
 
   const Material& material_of(const Object& object, const Mesh& mesh, const MeshFace& face) const {
@@ -83,11 +79,11 @@ class GeometryBuilder {
     return mesh.materials.empty() ? default_material_ : mesh.materials[face.material];
   }
 
-  void append_csv(const Object& object) {
+  // They are kept whichever way they turn.
+  void append_screen_triangles(const Object& object) {
     const Material& material = material_of(object, Mesh{}, MeshFace{});
-    for (const ScreenTriangle& triangle : read_triangle_csv(object.file, scene_.image)) {
+    for (const ScreenTriangle& triangle : *object.screen_triangles) {
       const Fate fate = fate_of(triangle);
-      // Screen-space triangles are kept whichever way they turn.
       count(emit(triangle, fate == Fate::back_facing ? Fate::kept : fate, material));
     }
   }
@@ -169,7 +165,7 @@ class GeometryBuilder {
   ViewVolume view_;   // what the image shows
   ViewVolume guard_;  // what vertex coordinates may reach
   std::map<std::string, const Material*> scene_materials_;
-  std::map<std::filesystem::path, Mesh> mesh_files_;  // never moved: material_indices_ points in
+  std::set<const Mesh*> noted_;  // meshes whose notes have been taken over
   Mesh primitive_;
   const Material default_material_;
   std::map<const Material*, std::uint32_t> material_indices_;

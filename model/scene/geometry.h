@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -59,7 +58,7 @@ std::int32_t snap(double pixels);
 // screen.
 std::int64_t signed_area(const ScreenTriangle& triangle);
 
-// Reads the meshes and projects them. Throws InputError.
+// Makes the primitives' meshes, and projects all meshes.
 Geometry make_geometry(const Scene& scene);
 
 // Unit vector from the surface to an eye at infinity: against the camera's view, or against z in a
@@ -73,9 +72,5 @@ Vec3 light_vector(const Light& light, const ScreenVertex& vertex);
 // How far the surface is from the eye along the view, as depth cueing sees it: world units, or z in
 // a scene of screen-space triangles.
 double view_distance(const Scene& scene, const ScreenVertex& vertex);
-
-// The columns of DESIGN: x0,y0,z0,nx0,…,nz2, ex0,…,ez2, then l0x0,… per light, then material.
-// Numbers are printed so that reading them back gives the same doubles.
-void dump_triangles(std::ostream& out, const Scene& scene, const Geometry& geometry);
 
 }  // namespace phongpipe

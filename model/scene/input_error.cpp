@@ -4,8 +4,8 @@
 
 namespace phongpipe {
 
-InputError::InputError(const std::filesystem::path& file, unsigned line, const std::string& message)
-    : std::runtime_error(line == 0 ? fmt::format("{}: {}", file.string(), message)
-                                   : fmt::format("{}:{}: {}", file.string(), line, message)) {}
+InputError::InputError(const std::string& source, unsigned line, const std::string& message)
+    : std::runtime_error(line == 0 ? fmt::format("{}: {}", source, message)
+                                   : fmt::format("{}:{}: {}", source, line, message)) {}
 
 }  // namespace phongpipe

@@ -1,7 +1,6 @@
 // Bad input, told in one line: where it is, what is wrong and what would be right.
 #pragma once
 
-#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -11,8 +10,8 @@ namespace phongpipe {
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
-  // "file:line: message", or "file: message" where there is no line (line 0).
-  InputError(const std::filesystem::path& file, unsigned line, const std::string& message);
+  // "source:line: message", or "source: message" where there is no line (line 0).
+  InputError(const std::string& source, unsigned line, const std::string& message);
 };
 
 }  // namespace phongpipe

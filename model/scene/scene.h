@@ -1,12 +1,12 @@
-// A scene as its TOML file describes it: image, camera, lights, objects and materials.
+// A scene: image, camera, lights, objects and materials.
 //
-// Vectors are in world units, right-handed, y up; colours are linear, 0 to 1. A scene whose objects
-// are `triangles` is in screen axes instead: x right, y down, z away from the eye.
+// Vectors are in world units, right-handed, y up; colours are linear, 0 to 1. A scene of
+// screen-space triangles is in screen axes instead: x right, y down, z away from the eye.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
-#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,17 +68,19 @@ struct Material {
   double shininess = 20;  // n of (N·H)^n
 };
 
+struct Mesh;            // mesh.h
+struct ScreenTriangle;  // geometry.h
+
+// A mesh, triangles in screen space, or, where it has neither, a primitive.
 struct Object {
-  enum class Source { mesh_file, primitive, triangle_file };
-  Source source = Source::primitive;
-  std::string name;                      // the primitive's name, or the file as the scene wrote it
-  std::filesystem::path file;            // resolved against the scene's folder
+  std::shared_ptr<const Mesh> mesh;
+  std::shared_ptr<const std::vector<ScreenTriangle>> screen_triangles;
+  std::string primitive;                 // its name
   std::array<int, 2> segments = {0, 0};  // [around, along]; 0 is the primitive's own default
   Vec3 translate = Vec3::Zero();         // applied last
   Vec3 rotate_degrees = Vec3::Zero();    // about x, then y, then z
   double scale = 1;                      // applied first
-  std::optional<std::string> material;   // none: the mesh file's own, else the default material
-  unsigned line = 0;                     // of the scene file, for messages
+  std::optional<std::string> material;   // none: the mesh's own, else the default material
 };
 
 struct DepthCue {
@@ -88,7 +90,7 @@ struct DepthCue {
 };
 
 struct Scene {
-  std::filesystem::path file;
+  std::string source;  // what messages call the scene, such as its file
   Image image;
   Camera camera;
   Shading shading;
@@ -98,11 +100,7 @@ struct Scene {
   std::optional<DepthCue> depth_cue;
 };
 
-// Whether the objects are `triangles`. Such a scene has no camera.
+// Whether the objects are triangles in screen space. Such a scene has no camera.
 bool is_screen_space(const Scene& scene);
-
-// Parses and checks everything; throws InputError. Unknown and missing keys, wrong types, values
-// out of range and NaN are errors that name file and line.
-Scene load_scene(const std::filesystem::path& file);
 
 }  // namespace phongpipe

@@ -3,10 +3,11 @@
 
 #include <string>
 
+#include "model/files/scene_file.h"
 #include "model/fixed/front_end.h"
 #include "model/fixed/model_frame.h"
-#include "testbench/hardware.h"
-#include "testbench/installation.h"
+#include "testbench/hardware/hardware.h"
+#include "testbench/system/installation.h"
 
 namespace phongpipe {
 

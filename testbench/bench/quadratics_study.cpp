@@ -8,7 +8,7 @@
 #include <string>
 
 #include "sim/schedule.h"
-#include "testbench/tests/shading/quadratics/random_cases.h"
+#include "testbench/tests/model/shading/quadratics/random_cases.h"
 
 namespace phongpipe {
 namespace {

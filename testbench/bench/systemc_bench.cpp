@@ -9,7 +9,7 @@
 
 #include "sim/pipeline.h"
 #include "testbench/bench/pawn_frame.h"
-#include "testbench/process.h"
+#include "testbench/system/process.h"
 
 namespace phongpipe {
 namespace {

@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "model/scene/input_error.h"
-#include "testbench/commands/commands.h"
-#include "testbench/comparison_report.h"
-#include "testbench/curves.h"
-#include "testbench/operation_time.h"
-#include "testbench/pictures.h"
+#include "testbench/commands/options.h"
+#include "testbench/drawing/pictures.h"
+#include "testbench/methods/curves.h"
+#include "testbench/methods/operation_time.h"
+#include "testbench/reports/comparison_report.h"
 
 namespace phongpipe {
 namespace {

@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <memory>
-#include <sstream>
 
+#include "model/files/scene_file.h"
+#include "model/files/spelling.h"
+#include "model/files/triangle_csv.h"
 #include "model/fixed/model_frame.h"
 #include "model/scene/input_error.h"
-#include "model/scene/spelling.h"
 #include "model/scene/subdivision.h"
-#include "testbench/commands/commands.h"
-#include "testbench/hardware.h"
-#include "testbench/pictures.h"
-#include "testbench/real_frame.h"
+#include "testbench/commands/options.h"
+#include "testbench/drawing/pictures.h"
+#include "testbench/hardware/hardware.h"
+#include "testbench/methods/real_frame.h"
 
 namespace phongpipe {
 namespace {
@@ -103,7 +104,7 @@ std::vector<Color> render_real(const Options& options, const Scene& scene, const
   if (method.name == "phong") return render_phong(scene, geometry, visibility);
   if (const auto reason = refusal(method, scene, geometry.materials)) {
     throw InputError(
-        scene.file, 0,
+        scene.source, 0,
         fmt::format("{} cannot render it in real arithmetic: {}", method.name, *reason));
   }
   return render_method(scene, geometry, visibility, method,
@@ -126,9 +127,7 @@ int render(const Options& options) {
                                              : render_real(options, scene, geometry);
   }
   if (!options.triangles.empty()) {
-    std::ostringstream csv;
-    dump_triangles(csv, scene, geometry);
-    write_text(options.triangles, csv.str());
+    write_text(options.triangles, triangles_csv(scene, geometry));
   }
   if (options.output.extension() == ".pfm") {
     write_pfm(options.output, colors, scene.image.width, scene.image.height);

@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "model/scene/input_error.h"
-#include "testbench/commands/commands.h"
-#include "testbench/pictures.h"
-#include "testbench/report.h"
+#include "testbench/commands/options.h"
+#include "testbench/drawing/pictures.h"
+#include "testbench/reports/verification_report.h"
 
 namespace phongpipe {
 namespace {

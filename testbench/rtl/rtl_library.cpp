@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <vector>
 
+#include "model/files/text_file.h"
 #include "model/scene/input_error.h"
-#include "model/scene/text_file.h"
-#include "testbench/installation.h"
-#include "testbench/process.h"
+#include "testbench/system/installation.h"
+#include "testbench/system/process.h"
 
 namespace phongpipe {
 namespace fs = std::filesystem;

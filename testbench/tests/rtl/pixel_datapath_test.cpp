@@ -7,8 +7,8 @@
 #include <random>
 
 #include "sim/datapath_pipeline.h"
+#include "testbench/cases/random_datapath.h"
 #include "testbench/rtl/rtl_library.h"
-#include "testbench/tests/fixed/random_datapath.h"
 
 namespace phongpipe {
 namespace {

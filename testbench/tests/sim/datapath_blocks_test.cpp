@@ -11,8 +11,8 @@
 
 #include "model/fixed/model_frame.h"
 #include "sim/pipeline.h"
-#include "testbench/process.h"
-#include "testbench/tests/fixed/random_effects.h"
+#include "testbench/cases/random_effects.h"
+#include "testbench/system/process.h"
 
 namespace phongpipe {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "model/fixed/front_end.h"
 #include "model/fixed/model_frame.h"
-#include "testbench/tests/fixed/random_effects.h"
+#include "testbench/cases/random_effects.h"
 #include "testbench/tests/sim/simulations.h"
 
 namespace phongpipe {

@@ -6,15 +6,16 @@
 #include <sstream>
 #include <string>
 
+#include "model/files/scene_file.h"
 #include "model/fixed/front_end.h"
 #include "model/fixed/model_frame.h"
 #include "model/scene/subdivision.h"
 #include "model/shading/phong.h"
 #include "sim/pipeline.h"
 #include "sim/schedule.h"
-#include "testbench/hardware.h"
-#include "testbench/process.h"
-#include "testbench/tests/fixed/random_effects.h"
+#include "testbench/cases/random_effects.h"
+#include "testbench/hardware/hardware.h"
+#include "testbench/system/process.h"
 
 namespace phongpipe {
 namespace {

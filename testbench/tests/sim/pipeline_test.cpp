@@ -7,10 +7,11 @@
 #include <stdexcept>
 #include <string>
 
+#include "model/files/scene_file.h"
 #include "model/fixed/model_frame.h"
 #include "model/scene/input_error.h"
 #include "sim/datapath_pipeline.h"
-#include "testbench/tests/fixed/random_effects.h"
+#include "testbench/cases/random_effects.h"
 #include "testbench/tests/sim/simulations.h"
 
 namespace phongpipe {

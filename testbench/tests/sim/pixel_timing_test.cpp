@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "sim/datapath_pipeline.h"
-#include "testbench/tests/fixed/random_frame.h"
+#include "testbench/cases/random_frame.h"
 
 namespace phongpipe {
 namespace {

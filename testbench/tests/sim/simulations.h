@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sim/pipeline.h"
-#include "testbench/process.h"
+#include "testbench/system/process.h"
 
 namespace phongpipe {
 

@@ -6,7 +6,7 @@
 
 #include "sim/datapath_pipeline.h"
 #include "sim/pipeline.h"
-#include "testbench/tests/fixed/random_frame.h"
+#include "testbench/cases/random_frame.h"
 #include "testbench/tests/sim/simulations.h"
 
 namespace phongpipe {

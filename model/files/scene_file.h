@@ -1,0 +1,14 @@
+// A scene from its TOML file, with the meshes and triangles that the file names.
+#pragma once
+
+#include <filesystem>
+
+#include "model/scene/scene.h"
+
+namespace phongpipe {
+
+// Parses and checks everything; throws InputError. Unknown and missing keys, wrong types, values
+// out of range and NaN are errors that name file and line.
+Scene load_scene(const std::filesystem::path& file);
+
+}  // namespace phongpipe

@@ -1,0 +1,330 @@
+#include "model/files/toml_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "model/files/spelling.h"
+#include "model/files/text_file.h"
+#include "model/scene/input_error.h"
+
+namespace phongpipe {
+namespace {
+
+unsigned line_of(const toml::node& node) {
+  return node.source().begin.line;
+}
+
+}  // namespace
+
+struct TomlTable::State {
+  std::filesystem::path file;
+  std::shared_ptr<const toml::table> document;  // keeps `table` alive
+  const toml::table* table = nullptr;
+  std::string name;  // as messages show it; empty for the file itself
+  std::set<std::string, std::less<>> known;
+
+  const toml::node* find(std::string_view key) {
+    known.emplace(key);
+    return table->get(key);
+  }
+  const toml::node& require(std::string_view key);
+  [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+  // `shown` is how the message writes the key.
+  [[noreturn]] void fail_missing(std::string_view key, const std::string& shown) const;
+  unsigned line() const { return name.empty() ? 0 : line_of(*table); }
+  unsigned line(std::string_view key) const;
+  std::shared_ptr<State> inner(const toml::table& inner_table, std::string inner_name) const {
+    return std::make_shared<State>(State{file, document, &inner_table, std::move(inner_name), {}});
+  }
+};
+
+namespace {
+
+// Why a node is not a number within the range; empty when it is.
+std::string number_fault(const toml::node& node, NumberRange range) {
+  const std::optional<double> value = node.is_number() ? node.value<double>() : std::nullopt;
+  if (!value) {
+    return "must be a number";
+  }
+  if (!std::isfinite(*value)) {
+    return "must be finite";
+  }
+  if (*value < range.min || *value > range.max) {
+    if (range.max == NumberRange{}.max) {
+      return fmt::format("is {}, must be at least {}", *value, range.min);
+    }
+    return fmt::format("is {}, must be from {} to {}", *value, range.min, range.max);
+  }
+  return {};
+}
+
+std::string integer_fault(const toml::node& node, int min, int max) {
+  if (!node.is_integer()) {
+    return "must be a whole number";
+  }
+  const std::int64_t value = *node.value<std::int64_t>();
+  return value < min || value > max ? fmt::format("is {}, must be from {} to {}", value, min, max)
+                                    : std::string();
+}
+
+}  // namespace
+
+unsigned TomlTable::State::line(std::string_view key) const {
+  const toml::node* node = table->get(key);
+  return node == nullptr ? line() : line_of(*node);
+}
+
+void TomlTable::State::fail(std::string_view key, const std::string& message) const {
+  throw InputError(file, line(key), message);
+}
+
+void TomlTable::State::fail_missing(std::string_view key, const std::string& shown) const {
+  // A misspelt key is the likeliest reason, and its line is the one to look at.
+  std::vector<std::string> strangers;
+  for (const auto& [written, node] : *table) {
+    if (known.count(written.str()) == 0) {
+      strangers.emplace_back(written.str());
+    }
+  }
+  const std::string stranger = closest_word(key, strangers);
+  if (!stranger.empty()) {
+    fail(stranger, fmt::format("unknown key '{}', did you mean '{}'?", stranger, key));
+  }
+  if (name.empty()) {
+    fail({}, fmt::format("missing {}", shown));
+  }
+  fail({}, fmt::format("{} needs {}", name, shown));
+}
+
+const toml::node& TomlTable::State::require(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node == nullptr) {
+    fail_missing(key, fmt::format("'{}'", key));
+  }
+  return *node;
+}
+
+TomlTable TomlTable::read_file(const std::filesystem::path& file) {
+  const std::string text = read_whole_file(file);
+  try {
+    auto document = std::make_shared<const toml::table>(toml::parse(text, file.string()));
+    return TomlTable(std::make_shared<State>(State{file, document, document.get(), {}, {}}));
+  } catch (const toml::parse_error& error) {
+    std::string message(error.description());
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    throw InputError(file, error.source().begin.line, message);
+  }
+}
+
+const std::filesystem::path& TomlTable::file() const {
+  return state_->file;
+}
+
+unsigned TomlTable::line() const {
+  return state_->line();
+}
+
+unsigned TomlTable::line(std::string_view key) const {
+  return state_->line(key);
+}
+
+bool TomlTable::has(std::string_view key) const {
+  return state_->find(key) != nullptr;
+}
+
+void TomlTable::fail(std::string_view key, const std::string& message) const {
+  state_->fail(key, message);
+}
+
+double TomlTable::number(std::string_view key, NumberRange range) const {
+  const toml::node& node = state_->require(key);
+  const std::string fault = number_fault(node, range);
+  if (!fault.empty()) {
+    fail(key, fmt::format("{} {}", key, fault));
+  }
+  return *node.value<double>();
+}
+
+double TomlTable::number(std::string_view key, NumberRange range, double fallback) const {
+  return has(key) ? number(key, range) : fallback;
+}
+
+int TomlTable::integer(std::string_view key, int min, int max) const {
+  const toml::node& node = state_->require(key);
+  const std::string fault = integer_fault(node, min, max);
+  if (!fault.empty()) {
+    fail(key, fmt::format("{} {}", key, fault));
+  }
+  return *node.value<int>();
+}
+
+int TomlTable::integer(std::string_view key, int min, int max, int fallback) const {
+  return has(key) ? integer(key, min, max) : fallback;
+}
+
+bool TomlTable::boolean(std::string_view key) const {
+  const toml::node& node = state_->require(key);
+  if (!node.is_boolean()) {
+    fail(key, fmt::format("{} must be true or false", key));
+  }
+  return *node.value<bool>();
+}
+
+bool TomlTable::boolean(std::string_view key, bool fallback) const {
+  return has(key) ? boolean(key) : fallback;
+}
+
+std::string TomlTable::text(std::string_view key) const {
+  const toml::node& node = state_->require(key);
+  const std::optional<std::string> value = node.value_exact<std::string>();
+  if (!value || value->empty()) {
+    fail(key, fmt::format("{} must be a string in quotes, not empty", key));
+  }
+  return *value;
+}
+
+std::string TomlTable::text(std::string_view key, std::string_view fallback) const {
+  return has(key) ? text(key) : std::string(fallback);
+}
+
+std::array<double, 3> TomlTable::triple(std::string_view key, NumberRange range) const {
+  const toml::node& node = state_->require(key);
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != 3) {
+    fail(key, fmt::format("{} must be three numbers, such as [0, 0, 1]", key));
+  }
+  std::array<double, 3> result{};
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const toml::node& component = (*array)[i];
+    const std::string fault = number_fault(component, range);
+    if (!fault.empty()) {
+      throw InputError(file(), line_of(component), fmt::format("{}[{}] {}", key, i, fault));
+    }
+    result[i] = *component.value<double>();
+  }
+  return result;
+}
+
+std::array<double, 3> TomlTable::color(std::string_view key) const {
+  const toml::node* node = state_->find(key);
+  if (node != nullptr && node->is_number()) {
+    const double grey = number(key, {0, 1});
+    return {grey, grey, grey};
+  }
+  if (node != nullptr && !node->is_array()) {
+    fail(key, fmt::format("{} must be [red, green, blue] or one number, from 0 to 1", key));
+  }
+  return triple(key, {0, 1});
+}
+
+std::array<int, 2> TomlTable::integer_pair(std::string_view key, int min, int max) const {
+  const toml::node& node = state_->require(key);
+  const toml::array* array = node.as_array();
+  if (array == nullptr || array->size() != 2) {
+    fail(key, fmt::format("{} must be two whole numbers, such as [64, 32]", key));
+  }
+  std::array<int, 2> result{};
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const std::string fault = integer_fault((*array)[i], min, max);
+    if (!fault.empty()) {
+      throw InputError(file(), line_of((*array)[i]), fmt::format("{}[{}] {}", key, i, fault));
+    }
+    result[i] = *(*array)[i].value<int>();
+  }
+  return result;
+}
+
+std::ptrdiff_t TomlTable::choice_index(std::string_view key,
+                                       const std::vector<std::string_view>& names) const {
+  const std::string value = text(key);
+  const auto found = std::find(names.begin(), names.end(), value);
+  if (found == names.end()) {
+    fail(key, fmt::format("{} is '{}', must be one of: {}", key, value, fmt::join(names, ", ")));
+  }
+  return found - names.begin();
+}
+
+TomlTable TomlTable::table(std::string_view key) const {
+  const std::optional<TomlTable> found = optional_table(key);
+  if (!found) {
+    state_->fail_missing(key, fmt::format("table [{}]", key));
+  }
+  return *found;
+}
+
+std::optional<TomlTable> TomlTable::optional_table(std::string_view key) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) {
+    return std::nullopt;
+  }
+  if (!node->is_table()) {
+    fail(key, fmt::format("'{}' must be a table, written [{}]", key, key));
+  }
+  return TomlTable(state_->inner(*node->as_table(), fmt::format("[{}]", key)));
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
+  const toml::node* node = state_->find(key);
+  if (node == nullptr) {
+    state_->fail_missing(key, fmt::format("table [[{}]]", key));
+  }
+  const toml::array* array = node->as_array();
+  if (array == nullptr || array->empty() || !array->is_homogeneous<toml::table>()) {
+    fail(key, fmt::format("'{}' must be tables, written [[{}]]", key, key));
+  }
+  std::vector<TomlTable> result;
+  for (const toml::node& entry : *array) {
+    result.push_back(TomlTable(state_->inner(*entry.as_table(), fmt::format("[[{}]]", key))));
+  }
+  return result;
+}
+
+std::vector<std::pair<std::string, TomlTable>> TomlTable::named_tables(std::string_view key) const {
+  std::vector<std::pair<std::string, TomlTable>> result;
+  const std::optional<TomlTable> parent = optional_table(key);
+  if (!parent) {
+    return result;
+  }
+  for (const auto& [name, node] : *parent->state_->table) {
+    if (!node.is_table()) {
+      parent->fail(name.str(), fmt::format("'{}' must be a table, written [{}.{}]", name.str(), key,
+                                           name.str()));
+    }
+    result.emplace_back(
+        std::string(name.str()),
+        TomlTable(state_->inner(*node.as_table(), fmt::format("[{}.{}]", key, name.str()))));
+  }
+  // toml++ sorts by name; the file's order is what a reader expects.
+  std::stable_sort(result.begin(), result.end(),
+                   [](const auto& a, const auto& b) { return a.second.line() < b.second.line(); });
+  return result;
+}
+
+void TomlTable::refuse(std::string_view key, const std::string& reason) const {
+  if (has(key)) {
+    fail(key, fmt::format("'{}' does not belong here: {}", key, reason));
+  }
+}
+
+void TomlTable::finish() const {
+  const std::vector<std::string> known(state_->known.begin(), state_->known.end());
+  for (const auto& [name, node] : *state_->table) {
+    if (state_->known.count(name.str()) != 0) {
+      continue;
+    }
+    const std::string where = state_->name.empty() ? "" : " in " + state_->name;
+    const std::string meant = closest_word(name.str(), known);
+    throw InputError(file(), name.source().begin.line,
+                     meant.empty() ? fmt::format("unknown key '{}'{}, known are: {}", name.str(),
+                                                 where, fmt::join(known, ", "))
+                                   : fmt::format("unknown key '{}'{}, did you mean '{}'?",
+                                                 name.str(), where, meant));
+  }
+}
+
+}  // namespace phongpipe

@@ -1,0 +1,56 @@
+#include "testbench/accuracy/accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "testbench/accuracy/error_chain.h"
+
+namespace phongpipe {
+
+void ErrorStatistics::add(double error) {
+  const double size = std::fabs(error);
+  largest = std::max(largest, size);
+  sum_of_squares += error * error;
+  ++samples;
+  over_half += size > 0.5;
+  over_one += size > 1;
+  over_two += size > 2;
+}
+
+double ErrorStatistics::rms() const {
+  return samples == 0 ? 0 : std::sqrt(sum_of_squares / static_cast<double>(samples));
+}
+
+double ErrorStatistics::psnr_db() const {
+  return 20 * std::log10(kOutputMax / rms());
+}
+
+double ErrorStatistics::share(std::uint64_t count) const {
+  return samples == 0 ? 0 : static_cast<double>(count) / static_cast<double>(samples);
+}
+
+Accuracy measure_accuracy(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
+                          const ModelFrame& model) {
+  Accuracy accuracy;
+  const int channels = frame.configuration.channels;
+  accuracy.exact_picture = Picture(frame.width, frame.height, channels, frame.background.data());
+  accuracy.error_picture = Picture(frame.width, frame.height, 3, kUncoveredColor.data());
+  for_each_visible_pixel(scene, geometry, frame, model, [&](const ErrorChain& links) {
+    double largest = 0;
+    std::uint8_t* const exact = accuracy.exact_picture.pixel(links.index);
+    for (int c = 0; c < channels; ++c) {
+      accuracy.series.add(links.polynomial[c] - links.exact[c]);
+      accuracy.rounding.add(links.rounded[c] - links.polynomial[c]);
+      accuracy.rom.add(links.table[c] - links.rounded[c]);
+      accuracy.output.add(links.output[c] - links.table[c]);
+      accuracy.total.add(links.output[c] - links.exact[c]);
+      largest = std::max(largest, std::fabs(links.output[c] - links.exact[c]));
+      exact[c] = static_cast<std::uint8_t>(std::lround(links.exact[c]));
+    }
+    const Rgb color = error_color(largest);
+    std::copy(color.begin(), color.end(), accuracy.error_picture.pixel(links.index));
+  });
+  return accuracy;
+}
+
+}  // namespace phongpipe

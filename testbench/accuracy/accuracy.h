@@ -1,0 +1,42 @@
+// How far the picture is from exact Phong shading, and why: pixel by pixel along the chain
+// exact Phong → real polynomial → rounded coefficients → ROM → 8-bit output.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/fixed/model_frame.h"
+#include "testbench/drawing/pictures.h"
+
+namespace phongpipe {
+
+// Over channels of covered pixels, in output LSB.
+struct ErrorStatistics {
+  double largest = 0;
+  double sum_of_squares = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t over_half = 0, over_one = 0, over_two = 0;
+
+  void add(double error);
+  double rms() const;
+  double psnr_db() const;  // against full scale; infinite without any error
+  double share(std::uint64_t count) const;
+};
+
+struct Accuracy {
+  ErrorStatistics total;
+  // Each is one step of the chain; at every pixel they add up to the total.
+  ErrorStatistics series;    // the second-degree polynomial for the exact reflection
+  ErrorStatistics rounding;  // of coefficients and starts of spans
+  ErrorStatistics rom;       // index and word of the table for the power
+  ErrorStatistics output;    // to 8 bits
+
+  Picture exact_picture;  // rounded to 8 bits
+  Picture error_picture;  // the largest error of a channel, as error_color shows it
+};
+
+// Of the visible pixels of the model's frame.
+Accuracy measure_accuracy(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
+                          const ModelFrame& model);
+
+}  // namespace phongpipe

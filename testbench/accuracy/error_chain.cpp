@@ -1,0 +1,209 @@
+#include "testbench/accuracy/error_chain.h"
+
+#include <cmath>
+
+#include "model/fixed/color_sum.h"
+#include "model/shading/phong.h"
+
+namespace phongpipe {
+namespace {
+
+// What one light adds to the pixels of a triangle, link by link; not clamped.
+struct PassLight {
+  Color polynomial = Color::Zero(), rounded = Color::Zero(), table = Color::Zero();
+};
+
+// One triangle's pixels under one light by every link of the chain between exact Phong and output.
+class PassChain {
+ public:
+  PassChain(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
+            const FrontEnd& front_end, const TriangleWork& work)
+      : configuration_(frame.configuration),
+        front_end_(front_end),
+        work_(work),
+        full_plan_(work.setup.material->plan) {
+    const TriangleSetup& setup = work.setup;
+    const Material& material = geometry.materials[geometry.triangles[setup.triangle].material];
+    real_ = SetupEngine(frame, geometry).coefficients(setup.triangle, setup.pass, setup.x, setup.y);
+    if (setup.pass == 0) {
+      ambient_ = kOutputMax * scene.shading.ambient_light * material.ambient;
+    }
+    for (Eigen::Index c = 0; c < configuration_.channels; ++c) {
+      const auto level = static_cast<double>(setup.material->level[static_cast<std::size_t>(c)]);
+      rounded_ambient_[c] = std::ldexp(level, -configuration_.diffuse_fraction_bits) - 0.5;
+    }
+    if (full_plan_.specular) table_ = &frame.tables[setup.material->table];
+  }
+
+  void start_row(int y) {
+    spans_.clear();
+    for (const RowSpan& row : work_.rows) {
+      if (row.y == y) spans_.push_back(front_end_.span_walker().start(work_.setup, row));
+    }
+  }
+
+  // Of the pixel's colour under depth cueing.
+  double own_share(int x, int y) const {
+    const Linear<double>& share = real_.own_share;
+    return std::clamp(share.a * (x - work_.setup.x) + share.b * (y - work_.setup.y) + share.c, 0.0,
+                      1.0);
+  }
+
+  // Adds what the light gives to the pixel at `x` of the row.
+  void add(int x, PassLight& light) const {
+    for (const Span& span : spans_) {
+      const int i = x - span.row.x;
+      if (i >= 0 && i < span.row.length) add(span, i, light);
+    }
+  }
+
+ private:
+  void add(const Span& span, int i, PassLight& light) const {
+    const double x = span.row.x + i - work_.setup.x, y = span.row.y - work_.setup.y;
+    const auto channels = static_cast<std::size_t>(configuration_.channels);
+    const int diffuse_fraction = configuration_.diffuse_fraction_bits;
+
+    std::array<double, 3> real = {}, rounded = {};
+    for (std::size_t c = 0; c < channels; ++c) {
+      if (full_plan_.diffuse && span.row.lit) real[c] = real_.diffuse[c](x, y);
+      const std::int64_t v = value(span.diffuse[c], i, configuration_.diffuse_width());
+      rounded[c] = std::ldexp(static_cast<double>(v - span.level[c]), -diffuse_fraction);
+    }
+    for (std::size_t c = 0; c < channels; ++c) {
+      const auto k = static_cast<Eigen::Index>(c);
+      light.polynomial[k] += ambient_[k] + std::max(0.0, real[c]);
+      light.rounded[k] += rounded_ambient_[k] + std::max(0.0, rounded[c]);
+      light.table[k] += rounded_ambient_[k] + std::max(0.0, rounded[c]);
+    }
+    if (!full_plan_.specular || !span.row.lit) return;
+    const bool real_open = open(real, full_plan_.gate_series ? real_.gate(x, y) : 0);
+    const Color real_highlight =
+        real_open ? full_highlight(real_.specular(x, y)) : Color(Color::Zero());
+    light.polynomial += real_highlight;
+    if (!span.highlight) {  // left out, as the table's words are 0
+      light.rounded += real_highlight;
+      return;
+    }
+    const std::int64_t gate = value(span.gate, i, configuration_.diffuse_width());
+    if (!open(rounded, static_cast<double>(gate))) return;
+    const std::int64_t specular = value(span.specular, i, configuration_.specular_width());
+    light.rounded += full_highlight(
+        std::ldexp(static_cast<double>(specular), -configuration_.specular_fraction_bits));
+    const auto address = static_cast<std::size_t>(ExponentRom::address(configuration_, specular));
+    for (std::size_t c = 0; c < channels; ++c) {
+      light.table[static_cast<Eigen::Index>(c)] +=
+          std::ldexp(table_->roms[c].words()[address], kOutputBits - configuration_.rom_data_bits);
+    }
+  }
+
+  static std::int64_t value(const SeriesStart& start, int i, int width) {
+    const std::int64_t pairs = std::int64_t{i} * (i - 1) / 2;
+    return wrap_to(wrap_add(wrap_add(start.v, wrap_mul(start.d1, i)), wrap_mul(start.d2, pairs)),
+                   width);
+  }
+  // Of a value of the specular series, in addresses.
+  Color full_highlight(double address) const {
+    const double x = std::clamp(address / configuration_.rom_words(), 0.0, 1.0);
+    return kOutputMax * table_->specular * std::pow(x, table_->shininess);
+  }
+  bool open(const std::array<double, 3>& diffuse, double gate) const {
+    switch (configuration_.gate) {
+      case GateSource::off:
+        return true;
+      case GateSource::series:
+        return gate > 0;
+      case GateSource::diffuse:
+        break;
+    }
+    return diffuse[0] > 0 || diffuse[1] > 0 || diffuse[2] > 0;
+  }
+
+  const DatapathConfiguration& configuration_;
+  const FrontEnd& front_end_;
+  TriangleWork work_;
+  SeriesPlan full_plan_;  // nothing left out
+  const HighlightTable* table_ = nullptr;
+  TriangleCoefficients<double> real_;
+  Color ambient_ = Color::Zero(), rounded_ambient_ = Color::Zero();
+  std::vector<Span> spans_;  // of the row
+};
+
+// A triangle under all lights, with depth cueing.
+class TriangleChain {
+ public:
+  TriangleChain(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
+                const FrontEnd& front_end, std::uint32_t triangle)
+      : frame_(frame),
+        phong_(scene, geometry.materials[geometry.triangles[triangle].material],
+               geometry.triangles[triangle]) {
+    if (scene.depth_cue) cue_color_ = kOutputMax * scene.depth_cue->color;
+    cover(geometry.triangles[triangle], frame.width, frame.height, rows_);
+    TriangleWork work;
+    for (std::uint32_t pass = 0; pass < frame.passes; ++pass) {
+      if (front_end.set_up(triangle, pass, work) == SetupOutcome::nothing) continue;
+      passes_.emplace_back(scene, geometry, frame, front_end, work);
+    }
+  }
+
+  const std::vector<RowSpan>& rows() const { return rows_; }
+
+  void start(const RowSpan& row) {
+    row_ = row;
+    for (PassChain& pass : passes_) pass.start_row(row.y);
+    exact_.resize(std::max(exact_.size(), static_cast<std::size_t>(row.length)));
+    phong_.shade(row.x, row.y, row.length, exact_.data());
+  }
+
+  // The links of pixel i of the row, but the output.
+  void at(int i, ErrorChain& chain) const {
+    PassLight light;
+    for (const PassChain& pass : passes_) pass.add(row_.x + i, light);
+    chain.exact = exact_[static_cast<std::size_t>(i)];
+    chain.polynomial = shown(light.polynomial, i);
+    chain.rounded = shown(light.rounded, i);
+    chain.table = shown(light.table, i);
+  }
+
+ private:
+  Color shown(const Color& light, int i) const {
+    if (!frame_.configuration.depth_cue) return light.min(kOutputMax);
+    const double own = passes_.front().own_share(row_.x + i, row_.y);
+    return (cue_color_ + (light - cue_color_) * own).min(kOutputMax);
+  }
+
+  const FrameSetup& frame_;
+  PhongTriangle phong_;
+  std::vector<PassChain> passes_;
+  std::vector<RowSpan> rows_;
+  Color cue_color_ = Color::Zero();
+  RowSpan row_;
+  std::vector<Color> exact_;
+};
+
+}  // namespace
+
+void for_each_visible_pixel(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
+                            const ModelFrame& model,
+                            const std::function<void(const ErrorChain&)>& visit) {
+  const FrontEnd front_end(frame, geometry);
+  ErrorChain links;
+  for (std::uint32_t triangle = 0; triangle < front_end.triangles(); ++triangle) {
+    TriangleChain chain(scene, geometry, frame, front_end, triangle);
+    for (const RowSpan& row : chain.rows()) {
+      chain.start(row);
+      links.index = static_cast<std::size_t>(row.y) * static_cast<std::size_t>(frame.width) +
+                    static_cast<std::size_t>(row.x);
+      for (int i = 0; i < row.length; ++i, ++links.index) {
+        if (!model.framebuffer.owned(links.index, triangle)) continue;  // hidden
+        chain.at(i, links);
+        const std::uint32_t output = model.framebuffer.color(links.index);
+        for (int c = 0; c < frame.configuration.channels; ++c) {
+          links.output[c] = (output >> (c * kOutputBits)) & std::uint32_t{kOutputMax};
+        }
+        visit(links);
+      }
+    }
+  }
+}
+
+}  // namespace phongpipe

@@ -1,0 +1,24 @@
+// build_rtl DIR PRESET…: Verilates and compiles pixel_datapath for each preset, in grey and colour,
+// so that nobody has to wait for it later.
+#include <fmt/format.h>
+
+#include "testbench/hardware/hardware.h"
+#include "testbench/rtl/rtl_library.h"
+
+int main(int argc, char** argv) {
+  try {
+    phongpipe::RtlBuildOptions options;
+    options.destination = argv[1];
+    for (int i = 2; i < argc; ++i) {
+      phongpipe::Hardware hardware = phongpipe::load_hardware(argv[i], {});
+      for (const int channels : {1, 3}) {
+        hardware.datapath.channels = channels;
+        const phongpipe::RtlLibrary library(hardware.datapath, options);
+      }
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "build_rtl: {}\n", error.what());
+    return 1;
+  }
+}

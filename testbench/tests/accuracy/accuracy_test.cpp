@@ -1,0 +1,152 @@
+// Error statistics, the split of errors, and how accurate the shipped scenes are.
+#include "testbench/accuracy/accuracy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/files/scene_file.h"
+#include "testbench/accuracy/error_chain.h"
+#include "testbench/hardware/hardware.h"
+
+namespace phongpipe {
+namespace {
+
+struct Measured {
+  Scene scene;
+  Geometry geometry;
+  FrameSetup frame;
+  ModelFrame model;
+
+  explicit Measured(const std::string& name, const std::vector<std::string>& overrides = {})
+      : Measured(load_scene(std::string(PHONGPIPE_SCENES) + "/" + name + ".toml"), overrides) {}
+  explicit Measured(const Scene& source, const std::vector<std::string>& overrides = {})
+      : scene(source),
+        geometry(make_geometry(scene)),
+        frame(scene, geometry, suited(overrides), 24),
+        model(run_model(frame, geometry)) {}
+
+  DatapathConfiguration suited(const std::vector<std::string>& overrides) const {
+    Hardware hardware = load_hardware("paper-1k", overrides);
+    suit_scene(hardware, scene, geometry);
+    return hardware.datapath;
+  }
+  Accuracy accuracy() const { return measure_accuracy(scene, geometry, frame, model); }
+};
+
+TEST(ErrorStatistics, ByHand) {
+  ErrorStatistics s;
+  for (const double error : {0.0, -0.6, 1.5, -3.0}) s.add(error);
+  EXPECT_EQ(s.largest, 3.0);
+  EXPECT_NEAR(s.rms(), std::sqrt((0.36 + 2.25 + 9) / 4), 1e-15);
+  EXPECT_NEAR(s.psnr_db(), 20 * std::log10(255 / s.rms()), 1e-12);
+  EXPECT_EQ(s.over_half, 3U);
+  EXPECT_EQ(s.over_one, 2U);
+  EXPECT_EQ(s.over_two, 1U);
+  EXPECT_EQ(s.share(s.over_two), 0.25);
+}
+
+TEST(ErrorChain, PartsAddUpToTheWholeAtEveryPixel) {
+  const Measured m("torus");
+  std::size_t visited = 0;
+  for_each_visible_pixel(m.scene, m.geometry, m.frame, m.model, [&](const ErrorChain& c) {
+    ++visited;
+    const Color parts = (c.polynomial - c.exact) + (c.rounded - c.polynomial) +
+                        (c.table - c.rounded) + (c.output - c.table);
+    ASSERT_LT((parts - (c.output - c.exact)).abs().maxCoeff(), 1e-10);
+  });
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < m.model.framebuffer.size(); ++i) {
+    covered += m.model.framebuffer.covered(i);
+  }
+  EXPECT_EQ(visited, covered);
+}
+
+// The torus under two lights, or fading from its front to its back, or both.
+Scene torus(bool two_lights, bool depth_cue) {
+  Scene scene = load_scene(PHONGPIPE_SCENES "/torus.toml");
+  if (two_lights) {
+    scene.lights.emplace_back();
+    scene.lights.back().direction = Vec3(0.8, -0.2, -0.6).normalized();
+    scene.lights.back().color = Color(0.2, 0.3, 0.4);
+  }
+  if (depth_cue) scene.depth_cue = DepthCue{2, 4, Color(0.1, 0.2, 0.3)};
+  return scene;
+}
+
+// Each pass rounds by half an LSB; with depth cueing twice so, and the share of its own colour is
+// cut off by less than 1/1024, of sums that are below 512 LSB here.
+TEST(ErrorChain, OutputIsTheTableValueRoundedInEveryPass) {
+  for (const bool two_lights : {false, true}) {
+    for (const bool depth_cue : {false, true}) {
+      const Measured m(torus(two_lights, depth_cue));
+      const double a_pass = depth_cue ? 0.5 + 0.5 + 512.0 / 1024 : 0.5;
+      const double bound = (two_lights ? 2 : 1) * a_pass + 1e-9;
+      for_each_visible_pixel(m.scene, m.geometry, m.frame, m.model, [&](const ErrorChain& c) {
+        ASSERT_LE((c.output - c.table).abs().maxCoeff(), bound) << two_lights << depth_cue;
+      });
+    }
+  }
+}
+
+// What measures the series knows all lights and the cue: it would be off by tens if it did not.
+TEST(Accuracy, SeveralLightsAndDepthCueingStayCloseToExactPhong) {
+  for (const bool two_lights : {false, true}) {
+    for (const bool depth_cue : {false, true}) {
+      const Accuracy accuracy = Measured(torus(two_lights, depth_cue)).accuracy();
+      EXPECT_LT(accuracy.series.largest, 1) << two_lights << depth_cue;
+      EXPECT_LT(accuracy.total.largest, 3) << two_lights << depth_cue;
+      EXPECT_LT(accuracy.total.rms(), 0.8) << two_lights << depth_cue;
+    }
+  }
+}
+
+// Bounds in LSB, a little above what was measured: a wrong halfway vector, level or scale is off by
+// tens.
+TEST(Accuracy, ShippedScenesStayCloseToExactPhong) {
+  struct Expectation {
+    const char* scene;
+    double largest, rms;
+  };
+  for (const Expectation& e : {Expectation{"sphere", 1.7, 0.45},
+                               {"torus", 2.3, 0.42},
+                               {"two-planes", 0.9, 0.9},
+                               {"pawn", 3.5, 0.45},
+                               {"mesh", 2.2, 0.45},
+                               {"screen-triangles", 10.5, 1.3}}) {
+    const Accuracy accuracy = Measured(e.scene).accuracy();
+    EXPECT_LT(accuracy.total.largest, e.largest) << e.scene;
+    EXPECT_LT(accuracy.total.rms(), e.rms) << e.scene;
+  }
+}
+
+TEST(Accuracy, MoreFractionBitsRoundLess) {
+  const double coarse = Measured("sphere", {"diffuse_fraction_bits=4", "specular_fraction_bits=1"})
+                            .accuracy()
+                            .rounding.rms();
+  const double fine = Measured("sphere", {"diffuse_fraction_bits=20", "specular_fraction_bits=16"})
+                          .accuracy()
+                          .rounding.rms();
+  EXPECT_GT(coarse, 16 * fine);
+}
+
+TEST(Accuracy, RoundedIndexHalvesTheErrorOfATruncatedOne) {
+  // Wide words, so that the index is what errs.
+  const auto error = [](const std::string& rounding) {
+    return Measured("sphere", {"rom_data_bits=12", "index_rounding=" + rounding})
+        .accuracy()
+        .rom.largest;
+  };
+  EXPECT_GT(error("truncate"), 1.8 * error("nearest"));
+}
+
+TEST(Accuracy, AnchoringAtTheSpanRoundsLessThanAtTheTriangle) {
+  const std::vector<std::string> few = {"diffuse_fraction_bits=8", "specular_fraction_bits=6"};
+  std::vector<std::string> triangle = few;
+  triangle.emplace_back("anchor=triangle");
+  EXPECT_LT(Measured("screen-triangles", few).accuracy().rounding.rms(),
+            Measured("screen-triangles", triangle).accuracy().rounding.rms());
+}
+
+}  // namespace
+}  // namespace phongpipe

@@ -1,0 +1,127 @@
+// A test of the harness: RTL with a bug must be found out, and at the right pixel.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "model/files/scene_file.h"
+#include "model/files/text_file.h"
+#include "model/fixed/model_frame.h"
+#include "testbench/drawing/pictures.h"
+#include "testbench/reports/verification_report.h"
+
+namespace phongpipe {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kScene = fs::path(PHONGPIPE_SCENES) / "sphere.toml";
+
+class SeededBug : public ::testing::Test {
+ protected:
+  SeededBug()
+      : folder_(fs::path(::testing::TempDir()) / fmt::format("phongpipe-bug-{}", getpid())),
+        hardware_(load_hardware("paper-1k", {})) {
+    fs::create_directories(folder_ / "hw");
+    for (const auto& entry : fs::directory_iterator(PHONGPIPE_HARDWARE)) {
+      if (entry.is_regular_file()) fs::copy(entry.path(), folder_ / "hw");
+    }
+    // Broken libraries must not stay in the user's cache.
+    setenv("XDG_CACHE_HOME", folder_.c_str(), 1);
+  }
+  ~SeededBug() override { fs::remove_all(folder_); }
+
+  void seed(const std::string& file, const std::string& correct, const std::string& broken) {
+    std::string text = read_whole_file(folder_ / "hw" / file);
+    const std::size_t at = text.find(correct);
+    ASSERT_NE(at, std::string::npos) << file << " has no " << correct;
+    write_text(folder_ / "hw" / file, text.replace(at, correct.size(), broken));
+  }
+  Verification run() {
+    VerificationOptions options;
+    options.rtl_sources = folder_ / "hw";
+    return verify(kScene, hardware_, options);
+  }
+
+  fs::path folder_;
+  Hardware hardware_;
+};
+
+TEST_F(SeededBug, NoneWithoutABug) {
+  const Verification v = run();
+  EXPECT_EQ(v.rtl.mismatches, 0U);
+  EXPECT_TRUE(v.passed());
+}
+
+TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
+  const Scene scene = load_scene(kScene);
+  const Geometry geometry = make_geometry(scene);
+  Hardware suited = hardware_;
+  suit_scene(suited, scene, geometry);
+  const ModelFrame model =
+      run_model(FrameSetup(scene, geometry, suited.datapath, suited.pipeline.depth_bits), geometry);
+  std::size_t brightest = 0;
+  for (std::size_t i = 0; i < model.stream.size(); ++i) {
+    if (model.stream[i].color > model.stream[brightest].color) brightest = i;
+  }
+  const ShadedPixel pixel = model.stream[brightest];
+  seed("pixel_datapath.sv", ".highlight_open(s2_open)",
+       fmt::format(".highlight_open(s2_open ^ (s2_x == {} && s2_y == {}))", pixel.x, pixel.y));
+
+  const Verification v = run();
+  EXPECT_FALSE(v.passed());
+  EXPECT_EQ(v.systemc.mismatches, 0U);
+  EXPECT_EQ(v.rtl.mismatches, 1U);
+  EXPECT_EQ(v.rtl.frame_mismatches, 1U);
+  ASSERT_TRUE(v.rtl.first.has_value());
+  EXPECT_EQ(v.rtl.first->place, brightest);
+  EXPECT_EQ(v.rtl.first->model, pixel);
+  EXPECT_LT(v.rtl.first->other.color, pixel.color);
+  const std::string report = report_text(v, false);
+  EXPECT_NE(report.find(fmt::format("triangle {}, x {}, y {}, cycle {}, seed 1",
+                                    v.rtl.first->triangle, pixel.x, pixel.y, v.rtl.first->cycle)),
+            std::string::npos)
+      << report;
+  EXPECT_NE(report.find("FAILED"), std::string::npos);
+}
+
+TEST_F(SeededBug, LostPixelsDoNotHangTheHarness) {
+  seed("pixel_datapath.sv", "wire fd_last = fd_remaining == 1;",
+       "wire fd_last = fd_remaining == 1 || fd_remaining == 7;");
+  const Verification v = run();
+  EXPECT_FALSE(v.passed());
+  EXPECT_GT(v.rtl.mismatches, 0U);
+  EXPECT_NE(v.rtl.failure.find("nothing has moved"), std::string::npos) << v.rtl.failure;
+}
+
+TEST_F(SeededBug, ADeadDatapathIsReportedWithItsQueues) {
+  seed("pixel_datapath.sv", "assign span_ready = ", "assign span_ready = 1'b0 && ");
+  const Verification v = run();
+  EXPECT_FALSE(v.passed());
+  EXPECT_NE(v.rtl.failure.find("span queue 8 of 8"), std::string::npos) << v.rtl.failure;
+}
+
+TEST_F(SeededBug, ABubbleBetweenSpansIsFoundByTheCycles) {
+  seed("pixel_datapath.sv", "assign span_ready = !fd_valid || (s1_ready && fd_last);",
+       "assign span_ready = !fd_valid || (s1_ready && fd_last && 1'b0);");
+  const Verification v = run();
+  EXPECT_EQ(v.rtl.mismatches, 0U);
+  EXPECT_FALSE(v.same_cycles());
+  EXPECT_FALSE(v.passed());
+}
+
+TEST_F(SeededBug, RtlThatDoesNotCompileIsAnInputErrorOfOneLine) {
+  seed("color_sum.sv", "endmodule", "endmodul");
+  try {
+    run();
+    FAIL() << "no error";
+  } catch (const std::exception& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("building the RTL failed: verilator"), std::string::npos) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+}  // namespace
+}  // namespace phongpipe
