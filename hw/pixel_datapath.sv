@@ -3,9 +3,10 @@
 // DIFFUSE, SPECULAR and DEPTH_CUE leave out the blocks of effects that a scene has not; without its
 // diffuse series a channel's light is the level.
 //
-// A span is taken when span_valid and span_ready; its first pixel is at the output LATENCY clocks
-// later (4, and 1 for DEPTH_CUE), and spans follow each other without a bubble. Each stage holds while the next one is full
-// and moves on when it is not, so a stall at the output closes bubbles before it reaches the input.
+// A span is taken when span_valid and span_ready; its first pixel is at the output PHONGPIPE_DATAPATH_LATENCY
+// clocks later, and PHONGPIPE_DEPTH_CUE_LATENCY more with DEPTH_CUE. Spans follow each other without a bubble.
+// Each stage holds while the next one is full and moves on when it is not, so a stall at the output closes
+// bubbles before it reaches the input.
 // Channel 0 is in the low bits of every packed port. span_length is at least 1. The table is loaded
 // through rom_*, one word of every channel a clock, while no pixel is in flight. cue_color must not change
 // while a pixel is in flight.
@@ -66,19 +67,16 @@ module pixel_datapath #(
     output logic [             X_BITS-1:0] pixel_y,
     output logic [CHANNELS*COLOR_BITS-1:0] pixel_color
 );
-  // No such module: an illegal parameter stops elaboration in every tool, by this name.
-  if ((CHANNELS != 1 && CHANNELS != 3)
-      || DIFFUSE_FRACTION < `PHONGPIPE_MIN_DIFFUSE_FRACTION
-      || DIFFUSE_FRACTION > `PHONGPIPE_MAX_DIFFUSE_FRACTION
-      || SPECULAR_FRACTION < `PHONGPIPE_MIN_SPECULAR_FRACTION
-      || SPECULAR_FRACTION > `PHONGPIPE_MAX_SPECULAR_FRACTION
-      || ROM_ADDRESS_BITS < `PHONGPIPE_MIN_ROM_ADDRESS_BITS
-      || ROM_ADDRESS_BITS > `PHONGPIPE_MAX_ROM_ADDRESS_BITS
-      || ROM_DATA_BITS < `PHONGPIPE_MIN_ROM_DATA_BITS
-      || ROM_DATA_BITS > `PHONGPIPE_MAX_ROM_DATA_BITS
-      || GATE < `PHONGPIPE_GATE_OFF || GATE > `PHONGPIPE_GATE_SERIES
-      || (SPECULAR != 0 && DIFFUSE == 0 && GATE == `PHONGPIPE_GATE_DIFFUSE)) begin : illegal
-    pixel_datapath_parameter_out_of_range stop ();
+  // No such modules: an illegal parameter stops elaboration in every tool, at a name that says which.
+  `PHONGPIPE_CHECK_PARAMETERS
+  if (CHANNELS != 1 && CHANNELS != 3) begin : CHANNELS_out_of_range
+    CHANNELS_must_be_1_or_3 stop ();
+  end
+  if (GATE < `PHONGPIPE_GATE_OFF || GATE > `PHONGPIPE_GATE_SERIES) begin : GATE_out_of_range
+    GATE_must_be_0_to_2 stop ();
+  end
+  if (SPECULAR != 0 && DIFFUSE == 0 && GATE == `PHONGPIPE_GATE_DIFFUSE) begin : GATE_without_series
+    GATE_diffuse_needs_DIFFUSE stop ();
   end
 
   // Stages: fd steps the series; 1 compares and forms the address; 2 reads the table and clamps; 3 adds,
@@ -116,7 +114,8 @@ module pixel_datapath #(
     if (s3_ready) {s3_x, s3_y} <= {s2_x, s2_y};
 
     if (reset) begin
-      {fd_valid, s1_valid, s2_valid, s3_valid} <= '0;
+      // A constant that no longer is the number of stages is a width mismatch here.
+      {fd_valid, s1_valid, s2_valid, s3_valid} <= {`PHONGPIPE_DATAPATH_LATENCY{1'b0}};
     end else begin
       fd_valid <= load || (fd_valid && !(s1_ready && fd_last));
       if (s1_ready) s1_valid <= fd_valid;

@@ -10,11 +10,20 @@
 
 #include "model/fixed/frame_setup.h"
 #include "model/fixed/span.h"
+#include "model/shading/fields.h"
 
 namespace phongpipe {
 
 struct PixelOperations {
-  std::uint64_t additions = 0, multiplications = 0, reads = 0;  // reads: of exponent_rom
+  std::uint64_t additions = 0, multiplications = 0;
+  std::uint64_t reads = 0;  // of exponent_rom
+
+  static constexpr auto fields() {
+    using P = PixelOperations;
+    return std::make_tuple(field("additions", &P::additions),
+                           field("multiplications", &P::multiplications),
+                           field("reads", &P::reads));
+  }
 };
 
 class DatapathBlock : public sc_core::sc_module {

@@ -8,7 +8,7 @@ DatapathPipeline::DatapathPipeline(const DatapathConfiguration& configuration,
                                    const OutputColor& cue_color)
     : values_(configuration, best_evaluation(), cue_color),
       last_address_(configuration.rom_words() - 1),
-      stages_(static_cast<std::size_t>(configuration.latency() - 1)) {}
+      stages_(static_cast<std::size_t>(configuration.latency_cycles() - 1)) {}
 
 void DatapathPipeline::reset() {
   row_ = {};

@@ -70,8 +70,7 @@ void simulate_by_clock(FrameContext& context) {
 
 }  // namespace
 
-SimulationResult simulate(const FrameSetup& frame, const Geometry& geometry,
-                          const PipelineConfiguration& configuration,
+SimulationResult simulate(const FrameSetup& frame, const PipelineConfiguration& configuration,
                           const SimulationOptions& options) {
   static bool simulated = false;
   if (simulated) throw std::logic_error("SystemC elaborates once a process; simulate in a child");
@@ -82,8 +81,8 @@ SimulationResult simulate(const FrameSetup& frame, const Geometry& geometry,
   configuration.check();
 
   SimulationResult result(frame);
-  FrameContext context{
-      frame, configuration, options, FrontEnd(frame, geometry), result, SetupTimes(configuration)};
+  FrameContext context{frame,           configuration, options,
+                       FrontEnd(frame), result,        SetupTimes(configuration)};
   if (options.detail == Detail::span) {
     simulate_by_span(context);
   } else {

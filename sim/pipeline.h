@@ -38,31 +38,45 @@ struct SimulationOptions {
   std::int64_t watchdog_cycles = 1'000'000;
 };
 
-struct SimulationResult {
+// What a simulation counts.
+struct SimulationCounts {
+  std::int64_t frame_cycles = 0;     // until the framebuffer has taken the last pixel
+  std::int64_t datapath_cycles = 0;  // until pixel_datapath has delivered it
+  std::int64_t setup_cycles = 0;     // in which the setup engine was at work
+  std::int64_t rom_load_cycles = 0;
+  // In which a ClockedDatapath held a pixel or was offered a span; 0 for the closed form by the
+  // span.
+  std::int64_t datapath_busy_cycles = 0;
+  OperationCounts setup_operations;
+  PixelOperations pixel_operations;  // unless a ClockedDatapath shades by the span
+  std::uint64_t depth_additions = 0;
+  std::vector<std::string> modules;  // elaborated, with their parents' names
+  std::string failure;  // why the pipeline stopped, with every module's queue; empty if all is well
+
+  static constexpr auto fields() {
+    using C = SimulationCounts;
+    return std::make_tuple(
+        field("frame_cycles", &C::frame_cycles), field("datapath_cycles", &C::datapath_cycles),
+        field("setup_cycles", &C::setup_cycles), field("rom_load_cycles", &C::rom_load_cycles),
+        field("datapath_busy_cycles", &C::datapath_busy_cycles),
+        field("setup_operations", &C::setup_operations),
+        field("pixel_operations", &C::pixel_operations),
+        field("depth_additions", &C::depth_additions), field("modules", &C::modules),
+        field("failure", &C::failure));
+  }
+};
+
+struct SimulationResult : SimulationCounts {
   explicit SimulationResult(const FrameSetup& frame) : framebuffer(frame) {}
 
   // Unless they are observed: the pixels as they leave pixel_datapath, and the cycle of each.
   std::vector<ShadedPixel> stream;
   std::vector<std::uint32_t> pixel_cycles;
-  Framebuffer framebuffer;           // at the end; values are colours
-  std::int64_t frame_cycles = 0;     // until the framebuffer has taken the last pixel
-  std::int64_t datapath_cycles = 0;  // until pixel_datapath has delivered it
-  std::int64_t setup_cycles = 0;     // in which the setup engine was at work
-  std::int64_t rom_load_cycles = 0;
-  OperationCounts setup_operations;
-  PixelOperations pixel_operations;  // unless a ClockedDatapath shades by the span
-  std::uint64_t depth_additions = 0;
-  std::vector<std::string> modules;  // elaborated, with their parents' names
-  // In which a ClockedDatapath held a pixel or was offered a span; 0 for the closed form by the
-  // span.
-  std::int64_t datapath_busy_cycles = 0;
-  std::string
-      failure;  // why the pipeline got stuck, with every module's queue; empty if it did not
+  Framebuffer framebuffer;  // at the end
 };
 
 // Simulates one frame. SystemC elaborates once a process: a second call throws std::logic_error.
-SimulationResult simulate(const FrameSetup& frame, const Geometry& geometry,
-                          const PipelineConfiguration& configuration,
+SimulationResult simulate(const FrameSetup& frame, const PipelineConfiguration& configuration,
                           const SimulationOptions& options);
 
 }  // namespace phongpipe

@@ -1,6 +1,8 @@
 // What the pipeline is built of, as far as time goes: units, queues and the cycles of each block.
 #pragma once
 
+#include "model/fixed/setting.h"
+
 namespace phongpipe {
 
 // `count` identical pipelined units; a result is there `latency` cycles after its operands, and a
@@ -30,7 +32,7 @@ struct PipelineConfiguration {
   int span_fifo = 8;
   int pixel_fifo = 16;
 
-  int depth_bits = 24;
+  static const Settings<PipelineConfiguration>& settings();
 
   // Throws InputError naming key, value and legal range.
   void check() const;

@@ -1,5 +1,5 @@
-// The numbers that C++ and RTL share. hw/constants.svh is generated from this file; a test fails
-// when the two differ.
+// The numbers that C++ and RTL share. hw/constants.svh is generated from this file and from the
+// table of settings; a test fails when it is not current.
 #pragma once
 
 #include <array>
@@ -33,10 +33,13 @@ constexpr int kCueFraction = 20;
 constexpr int kCueFactorBits = 10;
 constexpr int kCueWidth = 1 + kCueIntegerBits + kCueFraction;
 
-// Legal ranges of the parameters: registers of up to 40 bits, whose exact starts fit in 64.
-constexpr int kMinDiffuseFraction = 4, kMaxDiffuseFraction = 30;
-constexpr int kMinSpecularFraction = 1, kMaxSpecularFraction = 25;
-constexpr int kMinRomAddressBits = 6, kMaxRomAddressBits = 13;
-constexpr int kMinRomDataBits = 4, kMaxRomDataBits = 12;
+// Bits of a diffuse (or gate) register: sign, guard, output LSBs, fraction.
+constexpr int diffuse_width(int fraction_bits) {
+  return 1 + kGuardBits + kOutputBits + fraction_bits;
+}
+// Bits of a specular register: sign, guard, ROM address, fraction.
+constexpr int specular_width(int address_bits, int fraction_bits) {
+  return 1 + kGuardBits + address_bits + fraction_bits;
+}
 
 }  // namespace phongpipe

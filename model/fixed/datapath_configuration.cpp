@@ -1,38 +1,80 @@
 #include "model/fixed/datapath_configuration.h"
 
-#include <fmt/format.h>
-
 #include "model/scene/input_error.h"
 
 namespace phongpipe {
-namespace {
 
-void require_range(const char* name, int value, int low, int high, const char* reason) {
-  if (value < low || value > high) {
-    throw InputError(
-        fmt::format("{} = {} is out of range: {} to {} ({})", name, value, low, high, reason));
-  }
+const Settings<FixedPointFormats>& FixedPointFormats::settings() {
+  using F = FixedPointFormats;
+  // Fractions end where registers have 40 bits, whose exact starts of spans fit in 64.
+  static const Settings<F> all = {
+      choice_setting("datapath", "channels", &F::channel_choice, {"auto", "1", "3"},
+                     "grey or colour; auto: one channel where all of the scene is grey"),
+      number_setting("datapath", "diffuse_fraction_bits", &F::diffuse_fraction_bits, "bits", 4, 30,
+                     "fraction of the diffuse and gate series, below one output LSB",
+                     "DIFFUSE_FRACTION"),
+      number_setting("datapath", "specular_fraction_bits", &F::specular_fraction_bits, "bits", 1,
+                     25, "fraction of the specular series, below one ROM address",
+                     "SPECULAR_FRACTION"),
+      number_setting("datapath", "rom_address_bits", &F::rom_address_bits, "bits", 6, 13,
+                     "the exponent ROM has 2^this words: 64 to 8192", "ROM_ADDRESS_BITS"),
+      number_setting("datapath", "rom_data_bits", &F::rom_data_bits, "bits", 4, 12,
+                     "of a word of the exponent ROM, a fraction of full scale", "ROM_DATA_BITS"),
+      choice_setting("datapath", "index_rounding", &F::index_rounding, {"nearest", "truncate"},
+                     "whether a ROM word stands for the middle or the lower end of its interval"),
+      choice_setting("datapath", "specular_gate", &F::gate_choice, {"off", "diffuse", "series"},
+                     "what keeps highlights off unlit surfaces: nothing, or N·L; the scene decides "
+                     "whether its diffuse series can tell or N·L needs a series of its own"),
+      choice_setting("datapath", "anchor", &F::anchor, {"triangle", "span"},
+                     "where coefficients are rounded to the fraction: once a triangle, as in the "
+                     "paper, or at the start of each span"),
+      number_setting("framebuffer", "depth_bits", &F::depth_bits, "bits", 8, 30,
+                     "of the depth that is kept for each pixel"),
+  };
+  return all;
 }
 
-}  // namespace
+const Settings<SetupPolicy>& SetupPolicy::settings() {
+  using P = SetupPolicy;
+  static const Settings<P> all = {
+      choice_setting("setup_engine", "series", &P::series_fit, series_fit_names(),
+                     "which six numbers a triangle gets: the paper's Taylor series, or a fit"),
+      number_setting("setup_engine", "subdivide_degrees", &P::subdivide_degrees, "degrees", 0, 180,
+                     "triangles whose normals turn by more are split into four; 0: never"),
+  };
+  return all;
+}
 
 void DatapathConfiguration::check() const {
+  check_settings<FixedPointFormats>(settings(), *this);
   if (channels != 1 && channels != 3) {
     throw InputError(fmt::format("datapath.channels = {}: 1 (grey) or 3 (colour)", channels));
   }
-  require_range("datapath.diffuse_fraction_bits", diffuse_fraction_bits, kMinDiffuseFraction,
-                kMaxDiffuseFraction, "more would not fit the 64-bit start of a span");
-  require_range("datapath.specular_fraction_bits", specular_fraction_bits, kMinSpecularFraction,
-                kMaxSpecularFraction, "more would not fit the 64-bit start of a span");
-  require_range("datapath.rom_address_bits", rom_address_bits, kMinRomAddressBits,
-                kMaxRomAddressBits, "64 to 8192 words");
-  require_range("datapath.rom_data_bits", rom_data_bits, kMinRomDataBits, kMaxRomDataBits,
-                "a word is a fraction of full scale");
-  require_range("setup_engine.subdivide_degrees", subdivide_degrees, 0, 180, "0: never");
   if (specular && !diffuse && gate == GateSource::diffuse) {
     throw InputError(
         "datapath.specular_gate = \"diffuse\" needs a diffuse series; use \"series\" or \"off\"");
   }
+}
+
+void FrameConfiguration::check() const {
+  DatapathConfiguration::check();
+  check_settings<SetupPolicy>(SetupPolicy::settings(), *this);
+}
+
+std::vector<std::pair<std::string_view, int>> rtl_parameters(
+    const DatapathConfiguration& datapath) {
+  std::vector<std::pair<std::string_view, int>> parameters = {
+      {"CHANNELS", datapath.channels},
+      {"DIFFUSE", datapath.diffuse},
+      {"SPECULAR", datapath.specular},
+      {"DEPTH_CUE", datapath.depth_cue},
+      {"GATE", static_cast<int>(datapath.gate)}};
+  for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
+    if (!setting.rtl_parameter.empty()) {
+      parameters.emplace_back(setting.rtl_parameter, setting.get(datapath));
+    }
+  }
+  return parameters;
 }
 
 }  // namespace phongpipe

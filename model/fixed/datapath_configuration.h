@@ -1,9 +1,14 @@
-// The parameters of the pixel datapath: what the user chooses, and the formats that follow from it.
+// What the hardware is told before a frame, in three parts that are kept apart: the formats a user
+// chooses, the blocks that the scene's effects call for, and the policy of the setup engine.
 #pragma once
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "model/fixed/constants.h"
+#include "model/fixed/setting.h"
 #include "model/shading/quadratics/series_fit.h"
 
 namespace phongpipe {
@@ -24,31 +29,44 @@ enum class IndexRounding { nearest, truncate };
 // tell.
 enum class GateSource { off, diffuse, series };
 
-struct DatapathConfiguration {
-  // The blocks that are built, as the scene's effects ask for (see suit_scene).
-  int channels = 1;        // 1 (grey) or 3
-  bool diffuse = true;     // a series a channel; without it the level stands for it
-  bool specular = true;    // series, gate and exponent_rom
-  bool depth_cue = false;  // a linear series, a multiplier a channel and kDepthCueLatency stages
+// `automatic`: one channel where all colours of the scene are grey, else three.
+enum class ChannelChoice { automatic, one, three };
 
+// What the user chooses of the datapath and the framebuffer.
+struct FixedPointFormats {
+  ChannelChoice channel_choice = ChannelChoice::automatic;
   int diffuse_fraction_bits = 16;   // below one output LSB
   int specular_fraction_bits = 12;  // below one ROM address
   int rom_address_bits = 10;
   int rom_data_bits = 8;  // one word is full scale / 2^rom_data_bits per unit
   IndexRounding index_rounding = IndexRounding::nearest;
-  GateSource gate = GateSource::diffuse;
+  // Of `diffuse` and `series` the scene decides which one it is (see derive_blocks).
+  GateSource gate_choice = GateSource::diffuse;
   Anchor anchor = Anchor::span;
-  // What setup makes of a triangle, and how far its normals may turn before it is split, see
-  // subdivide (0: never). No register or adder depends on them.
-  SeriesFit series_fit = SeriesFit::taylor;
-  int subdivide_degrees = 0;
+  int depth_bits = 24;  // of the framebuffer's depth
 
+  static const Settings<FixedPointFormats>& settings();
+};
+
+// What is built of the datapath, as the scene's effects ask for.
+struct EffectBlocks {
+  int channels = 1;        // 1 (grey) or 3
+  bool diffuse = true;     // a series a channel; without it the level stands for it
+  bool specular = true;    // series, gate and exponent_rom
+  bool depth_cue = false;  // a linear series, a multiplier a channel and kDepthCueLatency stages
+  GateSource gate = GateSource::diffuse;
+};
+
+// The pixel datapath: formats and blocks, and what follows from them.
+struct DatapathConfiguration : FixedPointFormats, EffectBlocks {
   // Two's complement: sign, guard, integer, fraction. Overflow wraps.
   // Diffuse (and gate) series: s(1 + kGuardBits + kOutputBits).(diffuse_fraction_bits), in output
   // LSB.
-  int diffuse_width() const { return 1 + kGuardBits + kOutputBits + diffuse_fraction_bits; }
+  int diffuse_width() const { return phongpipe::diffuse_width(diffuse_fraction_bits); }
   // Specular series: integer part is the ROM address, so full scale is 2^rom_address_bits.
-  int specular_width() const { return 1 + kGuardBits + rom_address_bits + specular_fraction_bits; }
+  int specular_width() const {
+    return phongpipe::specular_width(rom_address_bits, specular_fraction_bits);
+  }
   // Fraction bits that color_sum keeps: what the ROM words have below one output LSB.
   int sum_fraction_bits() const { return std::max(0, rom_data_bits - kOutputBits); }
   int rom_words() const { return 1 << rom_address_bits; }
@@ -64,10 +82,34 @@ struct DatapathConfiguration {
   }
   int multipliers() const { return depth_cue ? channels : 0; }
   int rom_bits() const { return specular ? rom_words() * channels * rom_data_bits : 0; }
-  int latency() const { return kDatapathLatency + (depth_cue ? kDepthCueLatency : 0); }
+  // Of the series' values and differences: three registers each, two for the linear one of depth
+  // cueing.
+  int register_bits() const {
+    return 3 * ((diffuse ? channels : 0) + (has_gate_series() ? 1 : 0)) * diffuse_width() +
+           (specular ? 3 * specular_width() : 0) + (depth_cue ? 2 * kCueWidth : 0);
+  }
+  // Clocks from the acceptance of a span to its first pixel at the output, and the number of pixels
+  // that the datapath holds.
+  int latency_cycles() const { return kDatapathLatency + (depth_cue ? kDepthCueLatency : 0); }
 
   // Throws InputError naming key, value and legal range.
   void check() const;
 };
+
+// What the setup engine makes of a triangle. No register or adder of the datapath depends on it.
+struct SetupPolicy {
+  SeriesFit series_fit = SeriesFit::taylor;
+  int subdivide_degrees = 0;  // triangles whose normals turn by more are split; 0: none
+
+  static const Settings<SetupPolicy>& settings();
+};
+
+// All that the values of a frame depend on, besides the scene.
+struct FrameConfiguration : DatapathConfiguration, SetupPolicy {
+  void check() const;
+};
+
+// The parameters of pixel_datapath.sv, by name.
+std::vector<std::pair<std::string_view, int>> rtl_parameters(const DatapathConfiguration& datapath);
 
 }  // namespace phongpipe

@@ -98,7 +98,7 @@ double largest_attenuation(const Light& light, const Geometry& geometry) {
   return std::min(largest, kBrightest);
 }
 
-LightInput<double> light_input(const Scene& scene, const Light& light, double reference,
+LightInput<double> light_input(const Scene& scene, const Light& light, double largest_attenuation,
                                const Material& material,
                                const DatapathConfiguration& configuration) {
   LightInput<double> input;
@@ -108,7 +108,8 @@ LightInput<double> light_input(const Scene& scene, const Light& light, double re
   const Vec3 halfway = terms.eye + terms.to_light;
   // Looking straight into the light there is no halfway vector, and no highlight.
   terms.halfway = halfway.norm() > 0 ? Vec3(halfway.normalized()) : Vec3(Vec3::Zero());
-  for (std::size_t i = 0; i < 3; ++i) terms.attenuation[i] = light.attenuation[i] * reference;
+  for (std::size_t i = 0; i < 3; ++i)
+    terms.attenuation[i] = light.attenuation[i] * largest_attenuation;
   terms.spot_axis = -light.direction;
   terms.spot_exponent = light.spot_exponent;
   terms.fold = material.shininess > 0 ? 1 / material.shininess : 0;
@@ -118,7 +119,7 @@ LightInput<double> light_input(const Scene& scene, const Light& light, double re
   for (std::size_t c = 0; c < 3; ++c) {
     const auto channel = static_cast<Eigen::Index>(c);
     input.diffuse_scale[c] =
-        kOutputMax * material.diffuse[channel] * light.color[channel] * reference;
+        kOutputMax * material.diffuse[channel] * light.color[channel] * largest_attenuation;
   }
   return input;
 }
@@ -135,75 +136,86 @@ bool is_grey(const Scene& scene, const Geometry& geometry) {
          });
 }
 
-DatapathConfiguration suit_scene(DatapathConfiguration configuration, const Scene& scene,
-                                 const Geometry& geometry, Effects effects) {
+EffectBlocks derive_blocks(const FixedPointFormats& formats, const Scene& scene,
+                           const Geometry& geometry, Effects effects) {
   const bool all = effects == Effects::all;
-  configuration.diffuse = all || any_pair(scene, geometry, is_lit);
-  configuration.specular = all || any_pair(scene, geometry, is_shiny);
-  configuration.depth_cue = all || scene.depth_cue.has_value();
-  if (configuration.gate == GateSource::off) return configuration;
-  const bool blind = any_pair(scene, geometry, [](const Material& material, const Light& light) {
-    return is_shiny(material, light) && !is_lit(material, light);
-  });
-  configuration.gate = blind ? GateSource::series : GateSource::diffuse;
-  return configuration;
+  EffectBlocks blocks;
+  if (formats.channel_choice == ChannelChoice::automatic) {
+    blocks.channels = !all && is_grey(scene, geometry) ? 1 : 3;
+  } else {
+    blocks.channels = formats.channel_choice == ChannelChoice::one ? 1 : 3;
+  }
+  blocks.diffuse = all || any_pair(scene, geometry, is_lit);
+  blocks.specular = all || any_pair(scene, geometry, is_shiny);
+  blocks.depth_cue = all || scene.depth_cue.has_value();
+  const bool unlit_highlight =
+      any_pair(scene, geometry, [](const Material& material, const Light& light) {
+        return is_shiny(material, light) && !is_lit(material, light);
+      });
+  blocks.gate = formats.gate_choice == GateSource::off ? GateSource::off
+                : unlit_highlight                      ? GateSource::series
+                                                       : GateSource::diffuse;
+  return blocks;
 }
 
-FrameSetup::FrameSetup(const Scene& described, const Geometry& geometry,
-                       const DatapathConfiguration& chosen, int depth_bits_chosen,
-                       Effects effects_chosen)
-    : configuration(chosen),
-      effects(effects_chosen),
-      width(described.image.width),
-      height(described.image.height),
-      passes(static_cast<std::uint32_t>(described.lights.size())),
-      depth_test(effects == Effects::all || overlap(described, geometry)),
-      depth_bits(depth_bits_chosen),
-      background(output_color(described.image.background)),
-      scene(&described),
-      materials_of_a_pass(static_cast<std::uint32_t>(geometry.materials.size())) {
+FrameSetup::FrameSetup(const Scene& scene_, const Geometry& geometry_,
+                       const FrameConfiguration& configuration_, Effects effects_)
+    : configuration(configuration_),
+      effects(effects_),
+      width(scene_.image.width),
+      height(scene_.image.height),
+      passes(static_cast<std::uint32_t>(scene_.lights.size())),
+      depth_test(effects == Effects::all || overlap(scene_, geometry_)),
+      background(output_color(scene_.image.background)),
+      scene(&scene_),
+      geometry(&geometry_),
+      materials_of_a_pass(static_cast<std::uint32_t>(geometry_.materials.size())) {
   configuration.check();
-  require_exponents(described, geometry);
-  if (described.depth_cue) cue_color = output_color(described.depth_cue->color);
+  require_exponents(*scene, *geometry);
+  if (scene->depth_cue) cue_color = output_color(scene->depth_cue->color);
   for (std::uint32_t pass = 0; pass < passes; ++pass) {
-    const double reference = largest_attenuation(described.lights[pass], geometry);
-    for (const Material& material : geometry.materials) {
-      materials.push_back(set_up_material(pass, material, reference));
+    const double largest = largest_attenuation(scene->lights[pass], *geometry);
+    for (const Material& material : geometry->materials) {
+      materials.push_back(set_up_material(pass, material, largest));
     }
   }
 
-  if (geometry.triangles.empty()) return;
-  double nearest = geometry.triangles.front().vertices.front().z, farthest = nearest;
-  for (const ScreenTriangle& triangle : geometry.triangles) {
+  if (geometry->triangles.empty()) return;
+  double nearest = geometry->triangles.front().vertices.front().z, farthest = nearest;
+  for (const ScreenTriangle& triangle : geometry->triangles) {
     for (const ScreenVertex& vertex : triangle.vertices) {
       nearest = std::min(nearest, vertex.z);
       farthest = std::max(farthest, vertex.z);
     }
   }
   depth_offset = nearest;
-  const double steps = static_cast<double>((std::int64_t{1} << depth_bits) - 1);
+  const double steps = static_cast<double>((std::int64_t{1} << configuration.depth_bits) - 1);
   depth_scale = farthest > nearest ? steps / (farthest - nearest) : 0;
 }
 
 MaterialSetup FrameSetup::set_up_material(std::uint32_t pass, const Material& material,
-                                          double reference) {
+                                          double largest_attenuation) {
   const Light& light = scene->lights[pass];
   const bool all = effects == Effects::all;
+  const auto fitted_if = [](bool present) {
+    return present ? SeriesForm::fitted : SeriesForm::absent;
+  };
   MaterialSetup setup;
   setup.plan.channels = configuration.channels;
-  setup.plan.diffuse = configuration.diffuse && (all || is_lit(material, light));
-  setup.plan.specular = configuration.specular && (all || is_shiny(material, light));
-  setup.plan.gate_series = setup.plan.specular && configuration.has_gate_series();
+  setup.plan.diffuse = fitted_if(configuration.diffuse && (all || is_lit(material, light)));
+  const bool specular = configuration.specular && (all || is_shiny(material, light));
+  setup.plan.specular = fitted_if(specular);
+  setup.plan.gate = fitted_if(specular && configuration.has_gate_series());
   setup.plan.depth = depth_test && pass == 0;
   setup.plan.depth_cue = configuration.depth_cue;
   ReflectionForm& form = setup.plan.form;
   form.fit = configuration.series_fit;
   form.point_light = light.type != LightType::directional;
-  form.local_viewer = setup.plan.specular && scene->shading.viewer == Viewer::local;
+  form.local_viewer = specular && scene->shading.viewer == Viewer::local;
   form.highlight = scene->shading.highlight;
   form.attenuated = is_attenuated(light);
   form.spot_factor = has_spot_factor(light);
-  setup.light = light_input(*scene, light, reference, material, configuration);
+  setup.light = light_input(*scene, light, largest_attenuation, material, configuration);
   for (std::size_t c = 0; c < 3; ++c) {
     const auto channel = static_cast<Eigen::Index>(c);
     const double ambient =
@@ -211,16 +223,17 @@ MaterialSetup FrameSetup::set_up_material(std::uint32_t pass, const Material& ma
                  : kOutputMax * scene->shading.ambient_light[channel] * material.ambient[channel];
     setup.level[c] = std::llround(std::ldexp(ambient + 0.5, configuration.diffuse_fraction_bits));
   }
-  if (setup.plan.specular) {
-    setup.table = table_of(material.specular * light.color * reference, material.shininess);
+  if (specular) {
+    setup.table =
+        table_of(material.specular * light.color * largest_attenuation, material.shininess);
     setup.first_visible_address = first_visible_address(tables[setup.table]);
   }
   // The cheaper series cost no more than their bounds do.
   const bool pays = form.fit == SeriesFit::weighted || form.fit == SeriesFit::focused;
   if (!pays || form.point_light) return setup;
-  setup.plan.bound_light = !all && (setup.plan.diffuse || setup.plan.gate_series);
+  setup.plan.bound_light = !all && is_present(setup.plan.light());
   setup.plan.bound_highlight =
-      setup.plan.specular && !form.local_viewer && form.highlight == Highlight::halfway;
+      specular && !form.local_viewer && form.highlight == Highlight::halfway;
   return setup;
 }
 

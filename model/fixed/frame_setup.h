@@ -35,7 +35,7 @@ struct MaterialSetup {
 };
 
 struct FrameSetup {
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   Effects effects = Effects::derived;
   int width = 0, height = 0;  // of the image
   // Every light is a pass over all triangles: the first writes, the others add.
@@ -44,16 +44,16 @@ struct FrameSetup {
   std::vector<HighlightTable> tables;    // each once
   bool depth_test = true;                // some pixel is covered twice
   // Depth z is stored as (z − depth_offset) · depth_scale, from 0 to 2^depth_bits − 1.
-  int depth_bits = 24;
   double depth_offset = 0, depth_scale = 0;
   OutputColor cue_color = {};
   OutputColor background = {};
-  const Scene* scene = nullptr;  // must outlive the setup
+  const Scene* scene = nullptr;  // both must outlive the setup
+  const Geometry* geometry = nullptr;
 
   // Throws InputError where the scene asks for what the pipeline does not simulate, or the
-  // configuration is out of range. `configuration` must suit the scene, see suit_scene.
-  FrameSetup(const Scene& scene, const Geometry& geometry,
-             const DatapathConfiguration& configuration, int depth_bits,
+  // configuration is out of range. The blocks of `configuration` must be those that the scene calls
+  // for, see derive_blocks.
+  FrameSetup(const Scene& scene, const Geometry& geometry, const FrameConfiguration& configuration,
              Effects effects = Effects::derived);
 
   const MaterialSetup& material(std::uint32_t pass, std::uint32_t material) const {
@@ -61,8 +61,9 @@ struct FrameSetup {
   }
 
  private:
-  // `reference`: what attenuation is relative to.
-  MaterialSetup set_up_material(std::uint32_t pass, const Material& material, double reference);
+  // `largest_attenuation`: what attenuation is relative to.
+  MaterialSetup set_up_material(std::uint32_t pass, const Material& material,
+                                double largest_attenuation);
   std::uint32_t table_of(const Color& specular, double shininess);
 
   std::uint32_t materials_of_a_pass = 0;
@@ -71,10 +72,10 @@ struct FrameSetup {
 // Whether every colour of the scene is grey, so that one channel does.
 bool is_grey(const Scene& scene, const Geometry& geometry);
 
-// The blocks that the scene's effects need, or all of them. The gate's source is a series of its
-// own where a material has a highlight and no diffuse colour; a gate that is off stays off. The
-// number of channels is left alone.
-DatapathConfiguration suit_scene(DatapathConfiguration configuration, const Scene& scene,
-                                 const Geometry& geometry, Effects effects = Effects::derived);
+// The blocks that the scene's effects call for, or all of them. The gate's source is a series of
+// its own where a material has a highlight and no diffuse colour; a gate that is chosen to be off
+// stays off.
+EffectBlocks derive_blocks(const FixedPointFormats& formats, const Scene& scene,
+                           const Geometry& geometry, Effects effects = Effects::derived);
 
 }  // namespace phongpipe

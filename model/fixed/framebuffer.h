@@ -23,7 +23,7 @@ class Framebuffer {
   // The depth of pixel `i` of a span, 0 to 2^depth_bits − 1; saturates.
   static std::uint32_t depth(const FrameSetup& frame, const Span& span, int i) {
     const std::int64_t depth = wrap_add(span.depth, wrap_mul(span.depth_step, i)) >> kDepthFraction;
-    const std::int64_t farthest = (std::int64_t{1} << frame.depth_bits) - 1;
+    const std::int64_t farthest = (std::int64_t{1} << frame.configuration.depth_bits) - 1;
     return static_cast<std::uint32_t>(std::clamp<std::int64_t>(depth, 0, farthest));
   }
 
@@ -62,6 +62,13 @@ class Framebuffer {
   // Of the image's pixels, row by row from the top.
   std::size_t size() const {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
+  }
+  // visit(index, color) for each covered pixel.
+  template <typename Visit>
+  void for_each_covered(Visit visit) const {
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (covered(i)) visit(i, cells_[i].color);
+    }
   }
   bool covered(std::size_t index) const { return cells_[index].nearness != 0; }
   // Whether the triangle's pixel is the one seen; where owners are kept.

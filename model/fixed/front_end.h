@@ -23,12 +23,14 @@ enum class SetupOutcome {
 
 class FrontEnd {
  public:
-  FrontEnd(const FrameSetup& frame, const Geometry& geometry)
-      : frame_(&frame), geometry_(&geometry), setup_engine_(frame, geometry), span_walker_(frame) {}
+  explicit FrontEnd(const FrameSetup& frame)
+      : frame_(&frame), setup_engine_(frame), span_walker_(frame) {}
 
   SetupOutcome set_up(std::uint32_t triangle, std::uint32_t pass, TriangleWork& work) const {
-    const ScreenTriangle& source = geometry_->triangles[triangle];
-    const auto adds = [](const SeriesPlan& plan) { return plan.diffuse || plan.specular; };
+    const ScreenTriangle& source = frame_->geometry->triangles[triangle];
+    const auto adds = [](const SeriesPlan& plan) {
+      return is_present(plan.diffuse) || is_present(plan.specular);
+    };
     if (pass > 0 && !adds(frame_->material(pass, source.material).plan)) {
       return SetupOutcome::nothing;
     }
@@ -46,13 +48,12 @@ class FrontEnd {
 
   const SpanWalker& span_walker() const { return span_walker_; }
   std::uint32_t triangles() const {
-    return static_cast<std::uint32_t>(geometry_->triangles.size());
+    return static_cast<std::uint32_t>(frame_->geometry->triangles.size());
   }
   std::uint32_t passes() const { return frame_->passes; }
 
  private:
   const FrameSetup* frame_;
-  const Geometry* geometry_;
   SetupEngine setup_engine_;
   SpanWalker span_walker_;
 };

@@ -1,31 +1,62 @@
-// A whole frame by the bit-accurate model: the account that says what every pixel must be.
+// A whole frame by the bit-accurate model, which says what every pixel must be.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "model/fixed/framebuffer.h"
+#include "model/fixed/front_end.h"
 #include "model/fixed/pixel_datapath.h"
 
 namespace phongpipe {
 
-struct TracedSpan {
-  RowSpan row;
-  std::uint32_t triangle = 0;
+// What became of the triangles of a frame.
+struct TriangleCounts {
+  std::size_t set_up = 0;     // that cover a pixel, once for every light that reaches them
+  std::size_t left_out = 0;   // of them, found to add nothing to their pixels
+  std::size_t overflows = 0;  // with a coefficient or value beyond its register
+};
+
+// The spans of a frame with the colours of their pixels, in the order of the pipeline, before the
+// depth test.
+class SpanStream {
+ public:
+  explicit SpanStream(const FrameSetup& frame, Evaluation evaluation = best_evaluation());
+
+  // Goes on to the next span; false where there is none.
+  bool next();
+  const Span& span() const { return span_; }
+  // Of each pixel of the span.
+  const std::uint32_t* colors() const { return colors_.data(); }
+  const TriangleCounts& triangles() const { return triangles_; }
+
+ private:
+  bool next_triangle();
+
+  const FrameSetup& frame_;
+  FrontEnd front_end_;
+  TriangleOrder order_;
+  PixelDatapath datapath_;
+  std::uint32_t loaded_table_ = ~std::uint32_t{0};
+  TriangleWork work_;
+  std::size_t next_row_ = 0;
+  Span span_;
+  std::vector<std::uint32_t> colors_;
+  TriangleCounts triangles_;
 };
 
 struct ModelFrame {
-  std::vector<ShadedPixel> stream;    // every shaded pixel, in order, before the depth test
-  std::vector<TracedSpan> spans;      // where they come from
-  Framebuffer framebuffer;            // with owners
-  std::size_t triangles_set_up = 0;   // that cover a pixel, once for every light that reaches them
-  std::size_t triangles_dropped = 0;  // of them, found to add nothing to their pixels
-  std::size_t coefficient_overflows =
-      0;  // triangles with a coefficient or value beyond its register
+  Framebuffer framebuffer;  // with owners
+  TriangleCounts triangles;
+  std::uint64_t pixels = 0;  // shaded
 
+  // Channel 0 in the low byte.
   std::vector<std::uint32_t> colors() const;
 };
 
-ModelFrame run_model(const FrameSetup& frame, const Geometry& geometry,
+// `observe` is told of each span with the colours of its pixels.
+using ObserveSpan = std::function<void(const Span& span, const std::uint32_t* colors)>;
+ModelFrame run_model(const FrameSetup& frame, const ObserveSpan& observe = {},
                      Evaluation evaluation = best_evaluation());
 
 }  // namespace phongpipe

@@ -26,12 +26,11 @@ constexpr double kArithmeticNoise = 2e-11;
 
 }  // namespace
 
-SetupEngine::SetupEngine(const FrameSetup& frame, const Geometry& geometry)
-    : frame_(&frame), geometry_(&geometry) {}
+SetupEngine::SetupEngine(const FrameSetup& frame) : frame_(&frame) {}
 
 TriangleInput<double> SetupEngine::input(std::uint32_t triangle, std::uint32_t pass, int x,
                                          int y) const {
-  const ScreenTriangle& source = geometry_->triangles[triangle];
+  const ScreenTriangle& source = frame_->geometry->triangles[triangle];
   const std::optional<DepthCue>& cue = frame_->scene->depth_cue;
   TriangleInput<double> input;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -42,18 +41,19 @@ TriangleInput<double> SetupEngine::input(std::uint32_t triangle, std::uint32_t p
     input.normal[i] = vertex.normal;
     input.eye[i] = vertex.eye;
     input.light[i] = light_vector(frame_->scene->lights[pass], vertex);
-    input.own_share[i] =
+    input.cue_factor[i] =
         cue ? (cue->far - view_distance(*frame_->scene, vertex)) / (cue->far - cue->near) : 1;
   }
   // Wholly beyond an end the share is the end's, however far beyond.
-  const auto [least, most] = std::minmax_element(input.own_share.begin(), input.own_share.end());
-  if (*least >= 1 || *most <= 0) input.own_share.fill(*least >= 1 ? 1 : 0);
+  const auto [least, most] = std::minmax_element(input.cue_factor.begin(), input.cue_factor.end());
+  if (*least >= 1 || *most <= 0) input.cue_factor.fill(*least >= 1 ? 1 : 0);
   return input;
 }
 
 TriangleCoefficients<double> SetupEngine::coefficients(std::uint32_t triangle, std::uint32_t pass,
                                                        int x, int y) const {
-  const MaterialSetup& material = frame_->material(pass, geometry_->triangles[triangle].material);
+  const MaterialSetup& material =
+      frame_->material(pass, frame_->geometry->triangles[triangle].material);
   return setup_triangle(material.plan, input(triangle, pass, x, y), material.light);
 }
 
@@ -62,9 +62,12 @@ SeriesPlan SetupEngine::simplified_plan(const MaterialSetup& material,
   SeriesPlan plan = material.plan;
   const auto& [a, b, c] = vertices.normal;
   if (plan.form.point_light || a != b || b != c) return plan;
-  plan.flat_light = plan.diffuse || plan.gate_series;
-  plan.flat_highlight =
-      plan.specular && !plan.form.local_viewer && plan.form.highlight == Highlight::halfway;
+  if (is_present(plan.diffuse)) plan.diffuse = SeriesForm::constant;
+  if (is_present(plan.gate)) plan.gate = SeriesForm::constant;
+  if (is_present(plan.specular) && !plan.form.local_viewer &&
+      plan.form.highlight == Highlight::halfway) {
+    plan.specular = SeriesForm::constant;
+  }
   return plan;
 }
 
@@ -88,21 +91,22 @@ void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
     const double highest =
         (bounds.light.high + noise) * least_scale + slack(configuration.diffuse_fraction_bits);
     if (highest <= 0) {
-      plan.diffuse = false;
-      if (configuration.gate != GateSource::off) plan.specular = plan.gate_series = false;
+      plan.diffuse = SeriesForm::absent;
+      if (configuration.gate != GateSource::off) plan.specular = plan.gate = SeriesForm::absent;
     }
   }
-  if (plan.bound_highlight && plan.specular) {
+  if (plan.bound_highlight && is_present(plan.specular)) {
     // What is below 0 reads the word at 0, as long as it does not wrap.
     const double addresses = material.light.specular_scale;
     const double off = noise * addresses + slack(configuration.specular_fraction_bits);
-    plan.dim = material.first_visible_address > 0 &&
-               bounds.highlight.high * addresses + off < material.first_visible_address &&
-               bounds.highlight.low * addresses - off > -addresses * (1 << kGuardBits);
-    if (plan.dim && frame_->effects == Effects::derived) plan.specular = plan.gate_series = false;
+    plan.highlight_invisible =
+        material.first_visible_address > 0 &&
+        bounds.highlight.high * addresses + off < material.first_visible_address &&
+        bounds.highlight.low * addresses - off > -addresses * (1 << kGuardBits);
+    if (plan.highlight_invisible && frame_->effects == Effects::derived) {
+      plan.specular = plan.gate = SeriesForm::absent;
+    }
   }
-  plan.flat_light = plan.flat_light && (plan.diffuse || plan.gate_series);
-  plan.flat_highlight = plan.flat_highlight && plan.specular;
 }
 
 TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
@@ -113,7 +117,7 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
   setup.y = y;
   setup.triangle = triangle;
   setup.pass = pass;
-  setup.material = &frame_->material(pass, geometry_->triangles[triangle].material);
+  setup.material = &frame_->material(pass, frame_->geometry->triangles[triangle].material);
   const TriangleInput<double> vertices = input(triangle, pass, x, y);
   SeriesPlan plan = simplified_plan(*setup.material, vertices);
   const TriangleBounds<double> bounds = bound_triangle(plan, vertices, setup.material->light);
@@ -123,22 +127,24 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
   setup.plan = plan;
   if (frame_->effects == Effects::all) {
     // The same numbers, at the cost of the whole computation.
-    setup.plan.flat_light = setup.plan.flat_highlight = false;
+    for (SeriesForm* form : {&setup.plan.diffuse, &setup.plan.gate, &setup.plan.specular}) {
+      if (is_present(*form)) *form = SeriesForm::fitted;
+    }
   }
 
   const int fraction = configuration.diffuse_fraction_bits;
   const int diffuse_bits = setup_fraction_bits(configuration, fraction);
   for (std::size_t c = 0; c < static_cast<std::size_t>(configuration.channels); ++c) {
-    if (setup.plan.diffuse) {
+    if (is_present(setup.plan.diffuse)) {
       setup.diffuse[c] = round_coefficients(exact.diffuse[c], diffuse_bits, setup.overflow);
     }
     const std::int64_t level = setup.material->level[c];
     setup.diffuse[c].t0 = wrap_add(setup.diffuse[c].t0, level << (diffuse_bits - fraction));
   }
-  if (setup.plan.gate_series) {
+  if (is_present(setup.plan.gate)) {
     setup.gate = round_coefficients(exact.gate, diffuse_bits, setup.overflow);
   }
-  if (setup.plan.specular) {
+  if (is_present(setup.plan.specular)) {
     setup.specular = round_coefficients(
         exact.specular, setup_fraction_bits(configuration, configuration.specular_fraction_bits),
         setup.overflow);
@@ -147,8 +153,8 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
     setup.depth = round_coefficients(exact.depth, kDepthFraction, setup.overflow);
   }
   if (setup.plan.depth_cue) {
-    setup.own_share = round_coefficients(
-        exact.own_share, setup_fraction_bits(configuration, kCueFraction), setup.overflow);
+    setup.cue_factor = round_coefficients(
+        exact.cue_factor, setup_fraction_bits(configuration, kCueFraction), setup.overflow);
   }
   return setup;
 }

@@ -8,7 +8,7 @@ namespace phongpipe {
 
 // Coefficients about the centre of pixel (x, y). Q-formats: diffuse and gate have
 // diffuse_fraction_bits below one output LSB, specular specular_fraction_bits below one ROM
-// address, each kSetupExtraBits more with Anchor::span; depth kDepthFraction, own_share
+// address, each kSetupExtraBits more with Anchor::span; depth kDepthFraction, cue_factor
 // kCueFraction and as many extra bits. The level (ambient and the rounding half) is folded into the
 // T0 of diffuse. Rounding: to nearest. Overflow of 63 bits is reported.
 struct TriangleSetup {
@@ -20,13 +20,13 @@ struct TriangleSetup {
   std::array<FixedQuadratic, 3> diffuse;
   FixedQuadratic specular;
   FixedQuadratic gate;
-  FixedLinear depth, own_share;
+  FixedLinear depth, cue_factor;
   bool overflow = false;
 };
 
 class SetupEngine {
  public:
-  SetupEngine(const FrameSetup& frame, const Geometry& geometry);
+  explicit SetupEngine(const FrameSetup& frame);
 
   // (x, y): the pixel to expand about; it should be a covered one near the centroid, so that the
   // series is never evaluated outside the triangle's own normals. `longest_row` in pixels.
@@ -51,12 +51,11 @@ class SetupEngine {
                  int longest_row) const;
 
   const FrameSetup* frame_;
-  const Geometry* geometry_;
 };
 
 // Fraction bits the T_i are held with, for a series of `fraction_bits` in the datapath.
-inline int setup_fraction_bits(const DatapathConfiguration& configuration, int fraction_bits) {
-  return fraction_bits + (configuration.anchor == Anchor::span ? kSetupExtraBits : 0);
+inline int setup_fraction_bits(const FixedPointFormats& formats, int fraction_bits) {
+  return fraction_bits + (formats.anchor == Anchor::span ? kSetupExtraBits : 0);
 }
 
 }  // namespace phongpipe

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "model/fixed/forward_differencer.h"
+#include "model/shading/fields.h"
 
 namespace phongpipe {
 
@@ -38,6 +39,10 @@ struct ShadedPixel {
   std::uint16_t x = 0, y = 0;
   std::uint32_t color = 0;
 
+  static constexpr auto fields() {
+    using P = ShadedPixel;
+    return std::make_tuple(field("x", &P::x), field("y", &P::y), field("color", &P::color));
+  }
   friend bool operator==(const ShadedPixel& a, const ShadedPixel& b) {
     return a.x == b.x && a.y == b.y && a.color == b.color;
   }

@@ -48,9 +48,9 @@ Span SpanWalker::start(const TriangleSetup& setup, const RowSpan& row) const {
   span.row = row;
   span.triangle = setup.triangle;
   span.base = setup.pass == 0;
-  span.step_diffuse = (setup.plan.diffuse || setup.plan.gate_series) && !setup.plan.flat_light;
-  span.step_specular = setup.plan.specular && !setup.plan.flat_highlight;
-  span.highlight = setup.plan.specular;
+  span.step_diffuse = setup.plan.light() == SeriesForm::fitted;
+  span.step_specular = setup.plan.specular == SeriesForm::fitted;
+  span.highlight = is_present(setup.plan.specular);
   span.table = setup.material->table;
   span.level = setup.material->level;
   if (setup.plan.depth) {
@@ -58,8 +58,8 @@ Span SpanWalker::start(const TriangleSetup& setup, const RowSpan& row) const {
     span.depth_step = setup.depth.a;
   }
   if (setup.plan.depth_cue) {
-    span.cue = {round_off(setup.own_share.value(x, y), dropped_bits_),
-                round_off(setup.own_share.a, dropped_bits_), 0};
+    span.cue = {round_off(setup.cue_factor.value(x, y), dropped_bits_),
+                round_off(setup.cue_factor.a, dropped_bits_), 0};
   }
   if (!row.lit) {
     span.step_diffuse = span.step_specular = span.highlight = false;
@@ -69,14 +69,14 @@ Span SpanWalker::start(const TriangleSetup& setup, const RowSpan& row) const {
   for (std::size_t c = 0; c < static_cast<std::size_t>(configuration_.channels); ++c) {
     span.diffuse[c] = start_series(setup.diffuse[c], x, y);
   }
-  if (setup.plan.gate_series) span.gate = start_series(setup.gate, x, y);
-  if (setup.plan.specular) span.specular = start_series(setup.specular, x, y);
+  if (is_present(setup.plan.gate)) span.gate = start_series(setup.gate, x, y);
+  if (is_present(setup.plan.specular)) span.specular = start_series(setup.specular, x, y);
   return span;
 }
 
 bool SpanWalker::fits(const TriangleSetup& setup, const RowSpan& row) const {
   const int x = row.x - setup.x, y = row.y - setup.y;
-  const FixedLinear& share = setup.own_share;
+  const FixedLinear& share = setup.cue_factor;
   if (setup.plan.depth_cue &&
       !series_fits({share.c, share.b, share.a, 0, 0, 0}, x, y, row.length, cue_limit_)) {
     return false;
@@ -85,8 +85,10 @@ bool SpanWalker::fits(const TriangleSetup& setup, const RowSpan& row) const {
   for (std::size_t c = 0; c < static_cast<std::size_t>(configuration_.channels); ++c) {
     if (!series_fits(setup.diffuse[c], x, y, row.length, diffuse_limit_)) return false;
   }
-  return (!setup.plan.gate_series || series_fits(setup.gate, x, y, row.length, diffuse_limit_)) &&
-         (!setup.plan.specular || series_fits(setup.specular, x, y, row.length, specular_limit_));
+  return (!is_present(setup.plan.gate) ||
+          series_fits(setup.gate, x, y, row.length, diffuse_limit_)) &&
+         (!is_present(setup.plan.specular) ||
+          series_fits(setup.specular, x, y, row.length, specular_limit_));
 }
 
 }  // namespace phongpipe

@@ -22,7 +22,7 @@ class SpanWalker {
   SeriesStart start_series(const FixedQuadratic& t, int x, int y) const;
   bool series_fits(const FixedQuadratic& t, int x, int y, int length, double limit) const;
 
-  DatapathConfiguration configuration_;
+  FrameConfiguration configuration_;
   int dropped_bits_;                                   // between setup and datapath
   double diffuse_limit_, specular_limit_, cue_limit_;  // largest values of the registers
 };

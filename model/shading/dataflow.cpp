@@ -10,18 +10,21 @@ thread_local Recording* current = nullptr;
 }  // namespace
 
 OperationCounts operator+(const OperationCounts& a, const OperationCounts& b) {
-  return {a.add + b.add,   a.multiply + b.multiply, a.rsqrt + b.rsqrt, a.divide + b.divide,
-          a.sqrt + b.sqrt, a.read + b.read,         a.power + b.power};
+  OperationCounts sum = a;
+  std::apply([&](const auto&... field) { ((sum.*field.member += b.*field.member), ...); },
+             OperationCounts::fields());
+  return sum;
 }
 
 OperationCounts operator-(const OperationCounts& a, const OperationCounts& b) {
-  return {a.add - b.add,   a.multiply - b.multiply, a.rsqrt - b.rsqrt, a.divide - b.divide,
-          a.sqrt - b.sqrt, a.read - b.read,         a.power - b.power};
+  OperationCounts difference = a;
+  std::apply([&](const auto&... field) { ((difference.*field.member -= b.*field.member), ...); },
+             OperationCounts::fields());
+  return difference;
 }
 
 bool operator==(const OperationCounts& a, const OperationCounts& b) {
-  return a.add == b.add && a.multiply == b.multiply && a.rsqrt == b.rsqrt && a.divide == b.divide &&
-         a.sqrt == b.sqrt && a.read == b.read && a.power == b.power;
+  return equal_fields(a, b);
 }
 
 OperationCounts Dataflow::counts() const {

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "model/shading/fields.h"
+
 namespace phongpipe {
 
 // The first four are the setup engine's; software shaders also divide, take roots and read tables.
@@ -17,6 +19,14 @@ struct OperationCounts {
   std::size_t add = 0, multiply = 0, rsqrt = 0;
   std::size_t divide = 0, sqrt = 0, read = 0;  // read: one word of a table in memory
   std::size_t power = 0;
+
+  static constexpr auto fields() {
+    using C = OperationCounts;
+    return std::make_tuple(field("add", &C::add), field("multiply", &C::multiply),
+                           field("rsqrt", &C::rsqrt), field("divide", &C::divide),
+                           field("sqrt", &C::sqrt), field("read", &C::read),
+                           field("power", &C::power));
+  }
 };
 OperationCounts operator+(const OperationCounts& a, const OperationCounts& b);
 OperationCounts operator-(const OperationCounts& a, const OperationCounts& b);

@@ -4,48 +4,60 @@
 
 #include <array>
 #include <optional>
-#include <tuple>
 
+#include "model/shading/fields.h"
 #include "model/shading/quadratics/reflection_series.h"
 #include "model/shading/quadratics/series_bound.h"
 
 namespace phongpipe {
 
+// What is set up of a series: nothing; T0 alone, where the normals do not turn (light at infinity,
+// and for highlights an eye there); or all six coefficients.
+enum class SeriesForm { absent, constant, fitted };
+inline bool is_present(SeriesForm form) {
+  return form != SeriesForm::absent;
+}
+
 // All that decides what the setup engine executes for a triangle under one light.
 struct SeriesPlan {
   int channels = 1;
-  bool diffuse = true, specular = true;
-  bool gate_series = false;
-  bool depth = true, depth_cue = false;
+  SeriesForm diffuse = SeriesForm::fitted;  // a series a channel, all made of one of N·L
+  SeriesForm gate = SeriesForm::absent;     // a series of N·L of its own
+  SeriesForm specular = SeriesForm::fitted;
+  bool depth = true, depth_cue = false;  // linear series
   // Whether bounds are computed first: light that cannot reach the triangle is left out, and of a
   // highlight that cannot be seen at least the effort of its fit.
   bool bound_light = false, bound_highlight = false;
-  bool dim = false;  // the highlight has been found invisible
-  // The normals do not turn: under a light at infinity, and for highlights an eye there, a series
-  // is its T0.
-  bool flat_light = false, flat_highlight = false;
+  bool highlight_invisible = false;  // as its bound has shown
+  ReflectionForm form;               // but for what is wanted
+
+  static constexpr auto fields() {
+    using P = SeriesPlan;
+    return std::make_tuple(
+        field("channels", &P::channels), field("diffuse", &P::diffuse), field("gate", &P::gate),
+        field("specular", &P::specular), field("depth", &P::depth),
+        field("depth_cue", &P::depth_cue), field("bound_light", &P::bound_light),
+        field("bound_highlight", &P::bound_highlight),
+        field("highlight_invisible", &P::highlight_invisible), field("form", &P::form));
+  }
+
+  // The series of N·L that diffuse and gate are made of.
+  SeriesForm light() const { return is_present(diffuse) ? diffuse : gate; }
   // The fits that weigh a highlight are lost on one that cannot be seen.
-  SeriesFit highlight_fit() const { return dim ? SeriesFit::six_point : form.fit; }
-  ReflectionForm form;  // but for what is wanted
+  SeriesFit highlight_fit() const { return highlight_invisible ? SeriesFit::six_point : form.fit; }
 };
 
 inline bool operator==(const SeriesPlan& a, const SeriesPlan& b) {
-  const auto values = [](const SeriesPlan& p) {
-    const ReflectionForm& f = p.form;
-    return std::tie(p.channels, p.diffuse, p.specular, p.gate_series, p.depth, p.depth_cue,
-                    p.bound_light, p.bound_highlight, p.dim, p.flat_light, p.flat_highlight, f.fit,
-                    f.point_light, f.local_viewer, f.highlight, f.attenuated, f.spot_factor);
-  };
-  return values(a) == values(b);
+  return equal_fields(a, b);
 }
 
 template <typename T>
 struct TriangleInput {
   std::array<T, 3> x, y, z;  // x and y in pixels from the expansion point
   Corners<T> normal;
-  Corners<T> eye;              // surface → eye, of any length; read for a local viewer only
-  Corners<T> light;            // surface → light, of true length; for point and spot lights only
-  std::array<T, 3> own_share;  // of the pixel's colour under depth cueing, not clamped
+  Corners<T> eye;               // surface → eye, of any length; read for a local viewer only
+  Corners<T> light;             // surface → light, of true length; for point and spot lights only
+  std::array<T, 3> cue_factor;  // share of the pixel's own colour under depth cueing, not clamped
 };
 
 // What is the same for all triangles of a material under one light.
@@ -90,7 +102,7 @@ struct TriangleCoefficients {
   Quadratic<T> specular;
   Quadratic<T> gate;
   Linear<T> depth;
-  Linear<T> own_share;
+  Linear<T> cue_factor;
 };
 
 // `bounds`: where they have been computed.
@@ -104,9 +116,9 @@ TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInp
     return interpolate(q[0], q[1], q[2]);
   };
   if (plan.depth) result.depth = interpolated(triangle.z);
-  if (plan.depth_cue) result.own_share = interpolated(triangle.own_share);
+  if (plan.depth_cue) result.cue_factor = interpolated(triangle.cue_factor);
 
-  const auto flat = [&](const Vector3<T>& m) {
+  const auto constant = [&](const Vector3<T>& m) {
     const Vector3<T>& normal = triangle.normal[0];
     return Quadratic<T>{normal.dot(m) * rsqrt(normal.dot(normal)), 0, 0, 0, 0, 0};
   };
@@ -118,31 +130,29 @@ TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInp
                              light.terms,
                              bounds.squared_length ? &*bounds.squared_length : nullptr);
   };
-  const bool wants_light = plan.diffuse || plan.gate_series;
-  const bool together =
-      wants_light && plan.specular && !plan.flat_light && plan.highlight_fit() == plan.form.fit;
+  const bool together = plan.light() == SeriesForm::fitted && plan.specular == SeriesForm::fitted &&
+                        plan.highlight_fit() == plan.form.fit;
   CosineSeries<T> series;
   if (together) {
     series = series_of(plan.form.fit, {true, true});
   } else {
-    if (wants_light) {
-      series.light = plan.flat_light ? flat(light.terms.to_light)
-                                     : series_of(plan.form.fit, {true, false}).light;
+    if (plan.light() == SeriesForm::constant) series.light = constant(light.terms.to_light);
+    if (plan.light() == SeriesForm::fitted) {
+      series.light = series_of(plan.form.fit, {true, false}).light;
     }
-    if (plan.specular) {
-      series.highlight = plan.flat_highlight
-                             ? flat(light.terms.halfway)
-                             : series_of(plan.highlight_fit(), {false, true}).highlight;
+    if (plan.specular == SeriesForm::constant) series.highlight = constant(light.terms.halfway);
+    if (plan.specular == SeriesForm::fitted) {
+      series.highlight = series_of(plan.highlight_fit(), {false, true}).highlight;
     }
   }
-  if (plan.diffuse) {
+  if (is_present(plan.diffuse)) {
     for (int c = 0; c < plan.channels; ++c) {
       const auto channel = static_cast<std::size_t>(c);
       result.diffuse[channel] = series.light.scaled(light.diffuse_scale[channel]);
     }
   }
-  if (plan.gate_series) result.gate = series.light.scaled(light.gate_scale);
-  if (plan.specular) result.specular = series.highlight.scaled(light.specular_scale);
+  if (is_present(plan.gate)) result.gate = series.light.scaled(light.gate_scale);
+  if (is_present(plan.specular)) result.specular = series.highlight.scaled(light.specular_scale);
   return result;
 }
 

@@ -29,15 +29,16 @@ double ErrorStatistics::share(std::uint64_t count) const {
   return samples == 0 ? 0 : static_cast<double>(count) / static_cast<double>(samples);
 }
 
-Accuracy measure_accuracy(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
-                          const ModelFrame& model) {
+Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures) {
   Accuracy accuracy;
   const int channels = frame.configuration.channels;
-  accuracy.exact_picture = Picture(frame.width, frame.height, channels, frame.background.data());
-  accuracy.error_picture = Picture(frame.width, frame.height, 3, kUncoveredColor.data());
-  for_each_visible_pixel(scene, geometry, frame, model, [&](const ErrorChain& links) {
+  if (pictures) {
+    accuracy.exact_picture = Picture(frame.width, frame.height, channels, frame.background.data());
+    accuracy.error_picture = Picture(frame.width, frame.height, 3, kUncoveredColor.data());
+  }
+  for_each_visible_pixel(frame, model, [&](const ErrorChain& links) {
+    ++accuracy.visible_pixels;
     double largest = 0;
-    std::uint8_t* const exact = accuracy.exact_picture.pixel(links.index);
     for (int c = 0; c < channels; ++c) {
       accuracy.series.add(links.polynomial[c] - links.exact[c]);
       accuracy.rounding.add(links.rounded[c] - links.polynomial[c]);
@@ -45,6 +46,10 @@ Accuracy measure_accuracy(const Scene& scene, const Geometry& geometry, const Fr
       accuracy.output.add(links.output[c] - links.table[c]);
       accuracy.total.add(links.output[c] - links.exact[c]);
       largest = std::max(largest, std::fabs(links.output[c] - links.exact[c]));
+    }
+    if (!pictures) return;
+    std::uint8_t* const exact = accuracy.exact_picture.pixel(links.index);
+    for (int c = 0; c < channels; ++c) {
       exact[c] = static_cast<std::uint8_t>(std::lround(links.exact[c]));
     }
     const Rgb color = error_color(largest);

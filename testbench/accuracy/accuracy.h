@@ -24,6 +24,7 @@ struct ErrorStatistics {
 };
 
 struct Accuracy {
+  std::uint64_t visible_pixels = 0;
   ErrorStatistics total;
   // Each is one step of the chain; at every pixel they add up to the total.
   ErrorStatistics series;    // the second-degree polynomial for the exact reflection
@@ -31,12 +32,12 @@ struct Accuracy {
   ErrorStatistics rom;       // index and word of the table for the power
   ErrorStatistics output;    // to 8 bits
 
+  // Where they are asked for.
   Picture exact_picture;  // rounded to 8 bits
   Picture error_picture;  // the largest error of a channel, as error_color shows it
 };
 
 // Of the visible pixels of the model's frame.
-Accuracy measure_accuracy(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
-                          const ModelFrame& model);
+Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures = true);
 
 }  // namespace phongpipe

@@ -16,23 +16,23 @@ struct PassLight {
 // One triangle's pixels under one light by every link of the chain between exact Phong and output.
 class PassChain {
  public:
-  PassChain(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
-            const FrontEnd& front_end, const TriangleWork& work)
+  PassChain(const FrameSetup& frame, const FrontEnd& front_end, const TriangleWork& work)
       : configuration_(frame.configuration),
         front_end_(front_end),
         work_(work),
         full_plan_(work.setup.material->plan) {
     const TriangleSetup& setup = work.setup;
+    const Geometry& geometry = *frame.geometry;
     const Material& material = geometry.materials[geometry.triangles[setup.triangle].material];
-    real_ = SetupEngine(frame, geometry).coefficients(setup.triangle, setup.pass, setup.x, setup.y);
+    real_ = SetupEngine(frame).coefficients(setup.triangle, setup.pass, setup.x, setup.y);
     if (setup.pass == 0) {
-      ambient_ = kOutputMax * scene.shading.ambient_light * material.ambient;
+      ambient_ = kOutputMax * frame.scene->shading.ambient_light * material.ambient;
     }
     for (Eigen::Index c = 0; c < configuration_.channels; ++c) {
       const auto level = static_cast<double>(setup.material->level[static_cast<std::size_t>(c)]);
       rounded_ambient_[c] = std::ldexp(level, -configuration_.diffuse_fraction_bits) - 0.5;
     }
-    if (full_plan_.specular) table_ = &frame.tables[setup.material->table];
+    if (is_present(full_plan_.specular)) table_ = &frame.tables[setup.material->table];
   }
 
   void start_row(int y) {
@@ -42,11 +42,11 @@ class PassChain {
     }
   }
 
-  // Of the pixel's colour under depth cueing.
-  double own_share(int x, int y) const {
-    const Linear<double>& share = real_.own_share;
-    return std::clamp(share.a * (x - work_.setup.x) + share.b * (y - work_.setup.y) + share.c, 0.0,
-                      1.0);
+  // Share of the pixel's own colour under depth cueing.
+  double cue_factor(int x, int y) const {
+    const Linear<double>& factor = real_.cue_factor;
+    return std::clamp(factor.a * (x - work_.setup.x) + factor.b * (y - work_.setup.y) + factor.c,
+                      0.0, 1.0);
   }
 
   // Adds what the light gives to the pixel at `x` of the row.
@@ -65,7 +65,7 @@ class PassChain {
 
     std::array<double, 3> real = {}, rounded = {};
     for (std::size_t c = 0; c < channels; ++c) {
-      if (full_plan_.diffuse && span.row.lit) real[c] = real_.diffuse[c](x, y);
+      if (is_present(full_plan_.diffuse) && span.row.lit) real[c] = real_.diffuse[c](x, y);
       const std::int64_t v = value(span.diffuse[c], i, configuration_.diffuse_width());
       rounded[c] = std::ldexp(static_cast<double>(v - span.level[c]), -diffuse_fraction);
     }
@@ -75,8 +75,8 @@ class PassChain {
       light.rounded[k] += rounded_ambient_[k] + std::max(0.0, rounded[c]);
       light.table[k] += rounded_ambient_[k] + std::max(0.0, rounded[c]);
     }
-    if (!full_plan_.specular || !span.row.lit) return;
-    const bool real_open = open(real, full_plan_.gate_series ? real_.gate(x, y) : 0);
+    if (!is_present(full_plan_.specular) || !span.row.lit) return;
+    const bool real_open = open(real, is_present(full_plan_.gate) ? real_.gate(x, y) : 0);
     const Color real_highlight =
         real_open ? full_highlight(real_.specular(x, y)) : Color(Color::Zero());
     light.polynomial += real_highlight;
@@ -131,17 +131,18 @@ class PassChain {
 // A triangle under all lights, with depth cueing.
 class TriangleChain {
  public:
-  TriangleChain(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
-                const FrontEnd& front_end, std::uint32_t triangle)
+  TriangleChain(const FrameSetup& frame, const FrontEnd& front_end, std::uint32_t triangle)
       : frame_(frame),
-        phong_(scene, geometry.materials[geometry.triangles[triangle].material],
-               geometry.triangles[triangle]) {
-    if (scene.depth_cue) cue_color_ = kOutputMax * scene.depth_cue->color;
-    cover(geometry.triangles[triangle], frame.width, frame.height, rows_);
+        phong_(*frame.scene,
+               frame.geometry->materials[frame.geometry->triangles[triangle].material],
+               frame.geometry->triangles[triangle]) {
+    const std::optional<DepthCue>& cue = frame.scene->depth_cue;
+    if (cue) cue_color_ = kOutputMax * cue->color;
+    cover(frame.geometry->triangles[triangle], frame.width, frame.height, rows_);
     TriangleWork work;
     for (std::uint32_t pass = 0; pass < frame.passes; ++pass) {
       if (front_end.set_up(triangle, pass, work) == SetupOutcome::nothing) continue;
-      passes_.emplace_back(scene, geometry, frame, front_end, work);
+      passes_.emplace_back(frame, front_end, work);
     }
   }
 
@@ -167,8 +168,8 @@ class TriangleChain {
  private:
   Color shown(const Color& light, int i) const {
     if (!frame_.configuration.depth_cue) return light.min(kOutputMax);
-    const double own = passes_.front().own_share(row_.x + i, row_.y);
-    return (cue_color_ + (light - cue_color_) * own).min(kOutputMax);
+    const double factor = passes_.front().cue_factor(row_.x + i, row_.y);
+    return (cue_color_ + (light - cue_color_) * factor).min(kOutputMax);
   }
 
   const FrameSetup& frame_;
@@ -182,13 +183,12 @@ class TriangleChain {
 
 }  // namespace
 
-void for_each_visible_pixel(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
-                            const ModelFrame& model,
+void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
                             const std::function<void(const ErrorChain&)>& visit) {
-  const FrontEnd front_end(frame, geometry);
+  const FrontEnd front_end(frame);
   ErrorChain links;
   for (std::uint32_t triangle = 0; triangle < front_end.triangles(); ++triangle) {
-    TriangleChain chain(scene, geometry, frame, front_end, triangle);
+    TriangleChain chain(frame, front_end, triangle);
     for (const RowSpan& row : chain.rows()) {
       chain.start(row);
       links.index = static_cast<std::size_t>(row.y) * static_cast<std::size_t>(frame.width) +

@@ -21,8 +21,7 @@ struct ErrorChain {
 };
 
 // For every visible pixel of the model's frame, triangle by triangle.
-void for_each_visible_pixel(const Scene& scene, const Geometry& geometry, const FrameSetup& frame,
-                            const ModelFrame& model,
+void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
                             const std::function<void(const ErrorChain&)>& visit);
 
 }  // namespace phongpipe

@@ -74,9 +74,11 @@ int compare_methods(const Options& options) {
   const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   std::string csv;
-  for (const std::string& scene : options.scenes) {
+  std::vector<Scene> scenes;
+  for (const std::string& name : options.scenes) scenes.push_back(load_named_scene(name));
+  for (const Scene& scene : scenes) {
     const Comparison comparison = compare(
-        find_scene(scene), hardware, [&](const std::string& what) { progress(what); },
+        scene, hardware, [&](const std::string& what) { progress(what); },
         options.power.value_or(PowerKind::exact));
     progress.clear();
     if (options.json != "-" && options.csv != "-") {

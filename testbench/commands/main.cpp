@@ -1,10 +1,46 @@
 // The program: parses the command line and runs one command.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <new>
+
+#include "model/files/spelling.h"
 #include "model/scene/input_error.h"
 #include "testbench/commands/options.h"
 
-int main(int argc, char** argv) {
+namespace phongpipe {
+namespace {
+
+constexpr int kBadInput = 2;
+constexpr int kToolFailed = 3;
+
+int fail(int status, const std::string& message) {
+  fmt::print(stderr, "phongpipe: {}\n", message);
+  return status;
+}
+
+// CLI11 would say that a subcommand is required where there is one that it does not know.
+void check_command(const CLI::App& application, int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const CLI::App* command : application.get_subcommands({})) {
+    known.push_back(command->get_name());
+  }
+  if (argc < 2) {
+    throw InputError(
+        fmt::format("which command? There are {}; see phongpipe --help", fmt::join(known, ", ")));
+  }
+  const std::string word = argv[1];
+  if (word.empty() || word.front() == '-') return;
+  if (std::find(known.begin(), known.end(), word) != known.end()) return;
+  const std::string close = closest_word(word, known);
+  throw InputError(fmt::format(
+      "{}: no such command; {}", word,
+      close.empty() ? fmt::format("there are {}; see phongpipe --help", fmt::join(known, ", "))
+                    : fmt::format("did you mean {}?", close)));
+}
+
+int run_program(int argc, char** argv) {
   CLI::App application(
       "phongpipe simulates the fixed-point pipeline of Bishop & Weimer's Fast Phong Shading "
       "(1986),\n"
@@ -13,24 +49,45 @@ int main(int argc, char** argv) {
   application.require_subcommand(1);
   application.set_version_flag("--version", "phongpipe " PHONGPIPE_VERSION);
   application.footer(
-      "`phongpipe COMMAND --help` tells more.\n"
-      "Example: phongpipe verify testbench/scenes/teapot.toml --out out\n");
-  phongpipe::Run run;
-  phongpipe::add_render(application, run);
-  phongpipe::add_compare(application, run);
-  phongpipe::add_verify(application, run);
-  constexpr int kBadInput = 2;
+      "`phongpipe COMMAND --help` tells more; --help-settings explains the hardware's settings.\n"
+      "Exit status: 0 all holds, 1 a check failed, 2 bad usage or input, 3 a tool or the machine "
+      "failed.\n"
+      "Example: phongpipe verify teapot --out out\n");
+  Run run;
+  add_verify(application, run);
+  add_render(application, run);
+  add_compare(application, run);
+  const auto asked_for = [&](const char* flag) {
+    return std::any_of(argv + 1, argv + argc,
+                       [flag](const char* word) { return word == std::string_view(flag); });
+  };
+  if (asked_for("--help-settings")) {
+    fmt::print("{}", settings_help());
+    return 0;
+  }
+  check_command(application, argc, argv);
   try {
     application.parse(argc, argv);
-    return run();
   } catch (const CLI::Success& help) {
     return application.exit(help);
   } catch (const CLI::ParseError& error) {
-    fmt::print(stderr, "phongpipe: {}; see phongpipe --help\n", error.what());
-  } catch (const phongpipe::InputError& error) {
-    fmt::print(stderr, "phongpipe: {}\n", error.what());
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "phongpipe: {}\n", error.what());
+    return fail(kBadInput, fmt::format("{}; see phongpipe --help", error.what()));
   }
-  return kBadInput;
+  return run();
+}
+
+}  // namespace
+}  // namespace phongpipe
+
+int main(int argc, char** argv) {
+  using namespace phongpipe;
+  try {
+    return run_program(argc, argv);
+  } catch (const InputError& error) {
+    return fail(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kToolFailed, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(kToolFailed, error.what());
+  }
 }

@@ -1,35 +1,55 @@
 #include "testbench/commands/options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
 
+#include "model/files/scene_file.h"
+#include "model/files/text_file.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/system/installation.h"
 
 namespace phongpipe {
-namespace {
+namespace {}  // namespace
 
-std::string list_settings() {
-  Hardware hardware;
-  std::string text;
-  for (const Setting& setting : settings(hardware)) {
-    text += fmt::format("  {} = {}", setting.name(), setting.value());
-    if (!setting.choices.empty()) {
-      text += " of";
-      for (const auto choice : setting.choices) text += fmt::format(" {}", choice);
-    }
-    text += "\n";
-  }
-  return text + "  technology = ice40-hx8k\n";
+Scene load_named_scene(const std::string& name) {
+  Scene scene = load_scene(find_named(name, installation().scenes, "scene"));
+  scene.source = name;
+  return scene;
 }
 
-}  // namespace
+std::string settings_help() {
+  const Hardware preset = load_hardware("default", {});
+  std::string text =
+      "Settings of the hardware, for --set key=value and for hardware files, with the values of "
+      "the "
+      "preset `default`.\n";
+  std::string_view section;
+  for (const Setting<Hardware>& setting : hardware_settings()) {
+    if (setting.section != section) text += fmt::format("\n[{}]\n", setting.section);
+    section = setting.section;
+    const std::string range = setting.choices.empty()
+                                  ? fmt::format("{} to {}", setting.low, setting.high)
+                                  : fmt::format("{}", fmt::join(setting.choices, ", "));
+    text += fmt::format("  {:<42} {}{}{}; {}\n",
+                        fmt::format("{} = {}", setting.key, setting.value(preset)), range,
+                        setting.unit.empty() ? "" : " ", setting.unit, setting.meaning);
+  }
+  return text + fmt::format("\n  {:<42} a card in hw/technology, or a file: the clock\n",
+                            fmt::format("technology = {}", preset.technology.name));
+}
 
-std::filesystem::path find_scene(const std::string& name) {
-  return find_named(name, installation().scenes, "scene");
+CLI::Validator positive_number() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        const auto number = parse_number(text);
+        return number && *number > 0 ? std::string()
+                                     : fmt::format("{} is not a number above 0", text);
+      },
+      "");
 }
 
 void add_power_option(CLI::App& command, std::optional<PowerKind>& power) {
@@ -50,8 +70,8 @@ void HardwareOptions::add_to(CLI::App& command) {
                   "key=value: change one setting of the hardware; may be given again")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command.footer(command.get_footer() +
-                 "\nSettings for --set and hardware files, with defaults:\n" + list_settings());
+  command.add_flag("--help-settings",
+                   "Explain all settings of the hardware, with units and ranges, and exit");
 }
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}

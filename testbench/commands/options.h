@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/scene/scene.h"
 #include "model/shading/methods/power.h"
 
 namespace phongpipe {
@@ -23,8 +23,12 @@ void add_compare(CLI::App& application, Run& run);
 void add_render(CLI::App& application, Run& run);
 void add_verify(CLI::App& application, Run& run);
 
-// A scene by its file, or by the name of a shipped one. Throws InputError.
-std::filesystem::path find_scene(const std::string& name);
+// A scene by its file, or by the name of a shipped one; messages call it by `name`. Throws
+// InputError.
+Scene load_named_scene(const std::string& name);
+
+// What --help-settings prints.
+std::string settings_help();
 
 // What several commands take.
 struct HardwareOptions {
@@ -55,6 +59,9 @@ void add_choice(CLI::App& command, const std::string& flag, Value& value,
       ->type_name(words)
       ->default_str(fallback);
 }
+
+// A finite number above 0.
+CLI::Validator positive_number();
 
 // --power: how the power of highlights is computed by the methods in real arithmetic.
 void add_power_option(CLI::App& command, std::optional<PowerKind>& power);

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <memory>
 
-#include "model/files/scene_file.h"
 #include "model/files/spelling.h"
 #include "model/files/triangle_csv.h"
 #include "model/fixed/model_frame.h"
+#include "model/fixed/prepared_frame.h"
 #include "model/scene/input_error.h"
 #include "model/scene/subdivision.h"
 #include "testbench/commands/options.h"
@@ -56,8 +56,8 @@ Hardware hardware_of(const Options& options) {
         "{} has no fixed-point form; use --arithmetic real, or a series of the pipeline: {}",
         *options.method, fmt::join(names, ", ")));
   }
-  hardware.datapath.series_fit = static_cast<SeriesFit>(fit - names.begin());
-  if (hardware.datapath.series_fit == SeriesFit::taylor) hardware.datapath.subdivide_degrees = 0;
+  hardware.setup.series_fit = static_cast<SeriesFit>(fit - names.begin());
+  if (hardware.setup.series_fit == SeriesFit::taylor) hardware.setup.subdivide_degrees = 0;
   return hardware;
 }
 
@@ -79,18 +79,15 @@ void check(const Options& options, Arithmetic arithmetic) {
 }
 
 // The bits of the hardware, as colours in LSB.
-std::vector<Color> render_fixed(const Options& options, const Scene& scene,
-                                const Geometry& geometry) {
-  Hardware hardware = hardware_of(options);
-  suit_scene(hardware, scene, geometry);
-  const Geometry pieces = subdivide(scene, geometry, hardware.datapath.subdivide_degrees).geometry;
-  const FrameSetup frame(scene, pieces, hardware.datapath, hardware.pipeline.depth_bits);
-  const ModelFrame model = run_model(frame, pieces);
-  if (model.coefficient_overflows > 0) {
+std::vector<Color> render_fixed(const Options& options, const Scene& scene) {
+  const Hardware hardware = hardware_of(options);
+  const PreparedFrame frame(scene, hardware.formats, hardware.setup);
+  const ModelFrame model = run_model(frame.setup);
+  if (model.triangles.overflows > 0) {
     fmt::print(stderr, "warning: {} triangles have values that do not fit their registers\n",
-               model.coefficient_overflows);
+               model.triangles.overflows);
   }
-  return in_lsb(model.colors(), hardware.datapath.channels);
+  return in_lsb(model.colors(), frame.setup.configuration.channels);
 }
 
 std::vector<Color> render_real(const Options& options, const Scene& scene, const Geometry& whole) {
@@ -98,8 +95,7 @@ std::vector<Color> render_real(const Options& options, const Scene& scene, const
   const ShadingMethod& method =
       find_method(options.method ? *options.method : method_of(hardware, scene));
   const Geometry geometry =
-      subdivide(scene, whole, method.takes_pieces ? hardware.datapath.subdivide_degrees : 0)
-          .geometry;
+      subdivide(scene, whole, method.takes_pieces ? hardware.setup.subdivide_degrees : 0).geometry;
   const Visibility visibility = find_visible(scene, geometry);
   if (method.name == "phong") return render_phong(scene, geometry, visibility);
   if (const auto reason = refusal(method, scene, geometry.materials)) {
@@ -118,12 +114,12 @@ int render(const Options& options) {
   check(options, arithmetic);
   Progress progress;
   progress("reading the scene");
-  const Scene scene = load_scene(find_scene(options.scene));
+  const Scene scene = load_named_scene(options.scene);
   const Geometry geometry = make_geometry(scene);
   progress("shading");
   std::vector<Color> colors;
   if (!options.output.empty()) {
-    colors = arithmetic == Arithmetic::fixed ? render_fixed(options, scene, geometry)
+    colors = arithmetic == Arithmetic::fixed ? render_fixed(options, scene)
                                              : render_real(options, scene, geometry);
   }
   if (!options.triangles.empty()) {

@@ -1,6 +1,7 @@
 // phongpipe verify: every pixel three ways, accuracy, and the time budget.
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
 
 #include "model/scene/input_error.h"
@@ -15,34 +16,109 @@ struct Options {
   std::vector<std::string> scenes;
   HardwareOptions hardware;
   VerificationOptions verification;
+  std::filesystem::path pictures;
   std::string json;
+  bool verbose = false;
+};
+
+// Names for the scenes' pictures: the file's without folder and extension, numbered where two are
+// the same.
+std::vector<std::string> picture_names(const std::vector<std::string>& scenes) {
+  std::map<std::string, int> uses;
+  std::vector<std::string> names;
+  for (const std::string& scene : scenes) {
+    std::string name = std::filesystem::path(scene).stem().string();
+    const int use = ++uses[name];
+    if (use > 1) name += fmt::format("-{}", use);
+    names.push_back(name);
+  }
+  return names;
+}
+
+// What was given on the command line besides the scenes and where results go.
+std::string command_text(const Options& options) {
+  const VerificationOptions& v = options.verification;
+  std::string text = "phongpipe verify";
+  if (options.hardware.hardware != "default") text += " --hardware " + options.hardware.hardware;
+  for (const std::string& setting : options.hardware.overrides) text += " --set " + setting;
+  if (v.stall_percent > 0) text += fmt::format(" --stall {} --seed {}", v.stall_percent, v.seed);
+  if (!v.rtl_sources.empty()) text += fmt::format(" --rtl {}", v.rtl_sources.string());
+  return text;
+}
+
+class Verifier {
+ public:
+  explicit Verifier(const Options& options)
+      : options_(options),
+        hardware_(load_hardware(options.hardware.hardware, options.hardware.overrides)),
+        names_(picture_names(options.scenes)) {}
+
+  // The exit status.
+  int run() {
+    // A mistake in the last scene must not cost the work on those before.
+    std::vector<Scene> scenes;
+    for (const std::string& name : options_.scenes) scenes.push_back(load_named_scene(name));
+    for (std::size_t i = 0; i < scenes.size(); ++i) verify_scene(scenes[i], names_[i]);
+    if (scenes.size() > 1 && options_.json != "-") {
+      fmt::print("{} of {} passed\n", passed_, scenes.size());
+    }
+    write_json();
+    return refused_ ? 2 : passed_ == scenes.size() ? 0 : 1;
+  }
+
+ private:
+  void verify_scene(const Scene& scene, const std::string& name) {
+    try {
+      const VerificationResult result = verify(
+          scene, hardware_, options_.verification,
+          [&](const std::string& what) { progress_(fmt::format("{}: {}", scene.source, what)); });
+      progress_.clear();
+      ReportStyle style;
+      style.color = color_wanted();
+      style.verbose = options_.verbose;
+      style.command = command_text(options_);
+      if (!options_.json.empty() && options_.json != "-") style.more.push_back(options_.json);
+      if (!options_.pictures.empty()) {
+        style.more.push_back(write_pictures(result, options_.pictures, name).back().string());
+      }
+      if (options_.json != "-") {
+        fmt::print("{}", options_.scenes.size() == 1 ? report_text(result, style)
+                                                     : report_line(result, style));
+        std::fflush(stdout);
+      }
+      results_.push_back(report_json(result));
+      passed_ += result.passed() ? 1 : 0;
+    } catch (const InputError& error) {
+      progress_.clear();
+      if (options_.scenes.size() == 1) throw;
+      refused_ = true;
+      fmt::print(stderr, "phongpipe: {}\n", error.what());
+      results_.push_back({{"scene", scene.source}, {"passed", false}, {"error", error.what()}});
+    }
+  }
+
+  void write_json() const {
+    if (options_.json.empty()) return;
+    const std::string text = (results_.size() == 1 ? results_.front() : results_).dump(2) + "\n";
+    if (options_.json == "-") {
+      fmt::print("{}", text);
+    } else {
+      write_text(options_.json, text);
+    }
+  }
+
+  const Options& options_;
+  Hardware hardware_;
+  std::vector<std::string> names_;
+  Progress progress_;
+  nlohmann::ordered_json results_ = nlohmann::ordered_json::array();
+  std::size_t passed_ = 0;
+  bool refused_ = false;
 };
 
 int verify_scenes(Options options) {
-  Progress progress;
-  const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
-  nlohmann::ordered_json results = nlohmann::ordered_json::array();
-  bool passed = true;
-  for (const std::string& scene : options.scenes) {
-    options.verification.progress = [&](const std::string& what) {
-      progress(fmt::format("{}: {}", scene, what));
-    };
-    const Verification verification = verify(find_scene(scene), hardware, options.verification);
-    progress.clear();
-    if (options.json != "-") fmt::print("{}", report_text(verification, color_wanted()));
-    std::fflush(stdout);
-    results.push_back(report_json(verification));
-    passed = passed && verification.passed();
-  }
-  if (!options.json.empty()) {
-    const auto& whole = results.size() == 1 ? results.front() : results;
-    if (options.json == "-") {
-      fmt::print("{}\n", whole.dump(2));
-    } else {
-      write_text(options.json, whole.dump(2) + "\n");
-    }
-  }
-  return passed ? 0 : 1;
+  options.verification.pictures = !options.pictures.empty();
+  return Verifier(options).run();
 }
 
 }  // namespace
@@ -55,33 +131,45 @@ void add_verify(CLI::App& application, Run& run) {
       ->required()
       ->type_name("SCENE");
   VerificationOptions& v = options->verification;
-  command->add_option("--budget", v.budget_ns, "Nanoseconds a pixel of the whole frame may take")
+  command
+      ->add_option("--budget", v.budget_ns, "Nanoseconds that a pixel of the whole frame may take")
       ->capture_default_str()
-      ->check(CLI::PositiveNumber);
-  command->add_option("--out", v.pictures, "Folder for result, exact Phong and error map (PNG)")
+      ->type_name("NS")
+      ->check(positive_number());
+  command
+      ->add_option("--out", options->pictures, "Folder for result, exact Phong and error map (PNG)")
       ->type_name("DIR");
   command
       ->add_option("--json", options->json,
                    "Write the results as JSON; - is standard output, in place of the report")
       ->type_name("FILE");
+  command->add_flag("-v,--verbose", options->verbose,
+                    "Tell settings, effects and all metrics after the answer");
   add_choice<Detail>(*command, "--detail", v.detail,
                      {{"span", Detail::span}, {"cycle", Detail::cycle}}, "span",
                      "SystemC by the span, or by every clock (slower)");
   command
       ->add_option("--stall", v.stall_percent,
                    "Random back-pressure: per cent of pixels the framebuffer stalls at")
-      ->check(CLI::Range(0, 100));
-  command->add_option("--seed", v.seed, "Of the random back-pressure")->capture_default_str();
-  add_choice<Effects>(*command, "--effects", v.effects,
-                      {{"scene", Effects::derived}, {"all", Effects::all}}, "scene",
-                      "Build and simulate what the scene's effects need, or everything there is");
+      ->type_name("0…100")
+      ->check(CLI::Range(0, 100).description(""));
+  command->add_option("--seed", v.seed, "Of the random back-pressure")
+      ->capture_default_str()
+      ->type_name("N");
+  add_choice<EffectsToVerify>(*command, "--effects", v.effects,
+                              {{"scene", EffectsToVerify::scene},
+                               {"all", EffectsToVerify::all},
+                               {"both", EffectsToVerify::both}},
+                              "scene",
+                              "Build and simulate what the scene's effects need, everything there "
+                              "is, or both and compare them");
   command->add_option("--rtl", v.rtl_sources, "Folder of the RTL to verify, if not the installed")
       ->type_name("DIR")
-      ->check(CLI::ExistingDirectory);
+      ->check(CLI::ExistingDirectory.description(""));
   command->footer(
-      "Exit status: 0 all holds, 1 a check failed, 2 bad usage or input.\n"
-      "Example: phongpipe verify scene.toml --budget 80 --set rom_address_bits=12 --out "
-      "pictures\n");
+      "Exit status: 0 all holds, 1 a check failed, 2 bad usage or input, 3 a tool or the machine "
+      "failed.\n"
+      "Example: phongpipe verify teapot --budget 80 --set rom_address_bits=12 --out pictures\n");
   options->hardware.add_to(*command);
   command->callback([options, &run] { run = [options] { return verify_scenes(*options); }; });
 }

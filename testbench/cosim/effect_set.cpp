@@ -6,7 +6,9 @@
 
 namespace phongpipe {
 
-EffectSet effects_of(const Scene& scene, const Geometry& geometry, const FrameSetup& frame) {
+EffectSet effects_of(const FrameSetup& frame) {
+  const Scene& scene = *frame.scene;
+  const Geometry& geometry = *frame.geometry;
   const DatapathConfiguration& datapath = frame.configuration;
   const auto any_light = [&](auto holds) {
     return std::any_of(scene.lights.begin(), scene.lights.end(), holds);
@@ -18,14 +20,14 @@ EffectSet effects_of(const Scene& scene, const Geometry& geometry, const FrameSe
   const bool ambient = std::any_of(
       geometry.materials.begin(), geometry.materials.end(),
       [&](const Material& m) { return (scene.shading.ambient_light * m.ambient > 0).any(); });
-  const bool specular = any_plan([](const SeriesPlan& plan) { return plan.specular; });
+  const bool specular = any_plan([](const SeriesPlan& plan) { return is_present(plan.specular); });
   EffectSet set;
   const auto add = [&set](bool used, std::string name) {
     (used ? set.used : set.left_out).push_back(std::move(name));
   };
   add(datapath.channels == 3, "colour");
   add(ambient, "ambient light");
-  add(any_plan([](const SeriesPlan& plan) { return plan.diffuse; }), "diffuse light");
+  add(any_plan([](const SeriesPlan& plan) { return is_present(plan.diffuse); }), "diffuse light");
   const bool mirrored = scene.shading.highlight == Highlight::reflection;
   add(specular && !mirrored, "highlight N·H");
   add(specular && mirrored, "highlight R·V");

@@ -12,6 +12,6 @@ struct EffectSet {
   std::vector<std::string> used, left_out;
 };
 
-EffectSet effects_of(const Scene& scene, const Geometry& geometry, const FrameSetup& frame);
+EffectSet effects_of(const FrameSetup& frame);
 
 }  // namespace phongpipe

@@ -8,89 +8,72 @@
 #include <string>
 #include <vector>
 
-#include "sim/pipeline.h"
+#include "model/fixed/prepared_frame.h"
 #include "testbench/accuracy/accuracy.h"
 #include "testbench/cosim/effect_set.h"
+#include "testbench/cosim/implementation_result.h"
 #include "testbench/hardware/hardware.h"
 
 namespace phongpipe {
 
+// What is built and simulated: the effects that the scene calls for, all there are, or the first
+// and beside it the second, to see what leaving out saves and that it changes no pixel.
+enum class EffectsToVerify { scene, all, both };
+
 struct VerificationOptions {
-  double budget_ns = 100;
+  double budget_ns = 100;  // for a pixel of the whole frame
   Detail detail = Detail::span;
   int stall_percent = 0;
-  std::uint32_t seed = 1;
-  Effects effects = Effects::derived;
-  std::filesystem::path rtl_sources;                 // empty: the installed RTL
-  std::filesystem::path pictures;                    // folder; empty: none
-  std::function<void(const std::string&)> progress;  // told what is being done
+  std::uint32_t seed = 1;  // of the random back-pressure
+  EffectsToVerify effects = EffectsToVerify::scene;
+  std::filesystem::path rtl_sources;  // folder; empty: the installed RTL
+  bool pictures = false;              // whether the result has any
 };
 
-// The first pixel at which an account leaves the model's.
-struct Divergence {
-  std::uint64_t place = 0;  // in the stream
-  std::uint32_t triangle = 0;
-  std::int64_t cycle = 0;
-  ShadedPixel model, other;
-  bool missing = false;  // the account ended before it
-};
-
-// What an account that is simulated in a process of its own is found to be.
-struct Account {
-  std::uint64_t mismatches = 0;        // pixels of the stream that are not the model's
-  std::uint64_t frame_mismatches = 0;  // pixels of the final frame
-  std::optional<Divergence> first;
-  std::int64_t frame_cycles = 0;
-  std::int64_t datapath_cycles = 0;
-  std::int64_t setup_cycles = 0;
-  std::int64_t rom_load_cycles = 0;
-  std::int64_t datapath_busy_cycles = 0;  // of the RTL
-  std::uint64_t cycles_hash = 0;          // over the cycle of every pixel
-  OperationCounts setup_operations;
-  PixelOperations pixel_operations;
-  std::vector<std::string> modules;  // that SystemC elaborated
-  double seconds = 0;                // of processor time to simulate
-  std::string failure;
-};
-
-// The same frame by hardware that has every effect and leaves nothing out: what the effects left
-// out save. Its picture must be the same to the bit.
-struct Everything {
+// The same frame by SystemC hardware that has every effect and leaves nothing out. Its picture must
+// be the same to the bit.
+struct FullHardwareResult {
   DatapathConfiguration datapath;
-  Account systemc;
+  ImplementationResult systemc;
 };
 
-struct Verification {
-  std::filesystem::path scene;
-  Hardware hardware;
+struct VerificationResult {
+  std::string scene;  // what messages call it
+  int width = 0, height = 0;
   VerificationOptions options;
-  std::vector<std::string> notes;
-  std::size_t triangles_read = 0;    // of the meshes
-  std::size_t triangles = 0;         // after clipping and culling
-  std::size_t triangles_split = 0;   // that turn too sharply for one series
-  std::size_t pieces = 0;            // that these became
-  std::size_t triangles_set_up = 0;  // that cover a pixel, pieces for those split, for each light
-  std::size_t triangles_dropped = 0;
-  std::uint64_t pixels = 0;  // shaded
-  std::uint64_t visible_pixels = 0;
-  std::size_t coefficient_overflows = 0;
-  double rom_error = 0;  // largest of the materials' tables, share of full scale
-  Account systemc, rtl;
+  Hardware hardware;  // resolved
+  FrameConfiguration configuration;
+  double clock_ns = 0;
+  std::vector<std::string> notes;   // what a user should know of the scene
+  std::size_t triangles_read = 0;   // of the meshes
+  std::size_t triangles = 0;        // after clipping and culling
+  std::size_t triangles_split = 0;  // that turn too sharply for one series
+  std::size_t pieces = 0;           // that these became
+  TriangleCounts set_up;            // pieces for those split
+  std::uint64_t pixels = 0;         // shaded
+  double rom_error = 0;             // largest of the materials' tables, as a share of full scale
+  ImplementationResult systemc, rtl;
   EffectSet effects;
-  std::optional<Everything> everything;  // unless everything is what was asked for
+  std::optional<FullHardwareResult> full_hardware;  // with EffectsToVerify::both
   Accuracy accuracy;
+  Picture result_picture;  // as the other two, where pictures are asked for
 
-  // Per shaded pixel: the clocks the RTL was occupied, and those of the whole frame.
-  double datapath_ns() const;
-  double frame_ns() const;
-  std::int64_t cycle_difference() const { return rtl.frame_cycles - systemc.frame_cycles; }
-  bool same_cycles() const;
-  bool within_budget() const { return frame_ns() <= options.budget_ns; }
+  // Time of the RTL's datapath, and of the whole frame, over the pixels shaded.
+  double datapath_ns_per_pixel() const;
+  double frame_ns_per_pixel() const;
+  std::int64_t cycle_difference() const {
+    return rtl.counts.frame_cycles - systemc.counts.frame_cycles;
+  }
+  bool same_cycles() const;  // of every pixel
+  bool within_budget() const { return frame_ns_per_pixel() <= options.budget_ns; }
   bool passed() const;
 };
 
-// Throws InputError on bad input.
-Verification verify(const std::filesystem::path& scene, const Hardware& hardware,
-                    const VerificationOptions& options);
+// Told what is being done.
+using ShowProgress = std::function<void(const std::string&)>;
+
+// Throws InputError where nothing is to be seen, or where the technology has no such clock.
+VerificationResult verify(const Scene& scene, const Hardware& hardware,
+                          const VerificationOptions& options, const ShowProgress& progress = {});
 
 }  // namespace phongpipe

@@ -10,10 +10,11 @@ int main(int argc, char** argv) {
     phongpipe::RtlBuildOptions options;
     options.destination = argv[1];
     for (int i = 2; i < argc; ++i) {
-      phongpipe::Hardware hardware = phongpipe::load_hardware(argv[i], {});
+      const phongpipe::Hardware hardware = phongpipe::load_hardware(argv[i], {});
       for (const int channels : {1, 3}) {
-        hardware.datapath.channels = channels;
-        const phongpipe::RtlLibrary library(hardware.datapath, options);
+        phongpipe::DatapathConfiguration datapath{hardware.formats, {}};
+        datapath.channels = channels;
+        const phongpipe::RtlLibrary library(datapath, options);
       }
     }
     return 0;

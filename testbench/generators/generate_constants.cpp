@@ -1,4 +1,5 @@
-// generate_constants: prints hw/constants.svh from model/fixed/constants.h.
+// generate_constants: prints hw/constants.svh from model/fixed/constants.h and the table of
+// settings.
 #include <fmt/format.h>
 
 #include "model/fixed/constants.h"
@@ -6,7 +7,7 @@
 
 int main() {
   using namespace phongpipe;
-  fmt::print("// Generated from model/fixed/constants.h by scripts/generate.sh; do not edit.\n");
+  fmt::print("// Generated from model/fixed by scripts/generate.sh; do not edit.\n");
   const auto define = [](const char* name, int value) {
     fmt::print("`define PHONGPIPE_{} {}\n", name, value);
   };
@@ -20,12 +21,17 @@ int main() {
   define("GATE_OFF", static_cast<int>(GateSource::off));
   define("GATE_DIFFUSE", static_cast<int>(GateSource::diffuse));
   define("GATE_SERIES", static_cast<int>(GateSource::series));
-  define("MIN_DIFFUSE_FRACTION", kMinDiffuseFraction);
-  define("MAX_DIFFUSE_FRACTION", kMaxDiffuseFraction);
-  define("MIN_SPECULAR_FRACTION", kMinSpecularFraction);
-  define("MAX_SPECULAR_FRACTION", kMaxSpecularFraction);
-  define("MIN_ROM_ADDRESS_BITS", kMinRomAddressBits);
-  define("MAX_ROM_ADDRESS_BITS", kMaxRomAddressBits);
-  define("MIN_ROM_DATA_BITS", kMinRomDataBits);
-  define("MAX_ROM_DATA_BITS", kMaxRomDataBits);
+  define("DATAPATH_LATENCY", kDatapathLatency);
+  define("DEPTH_CUE_LATENCY", kDepthCueLatency);
+  // Where a parameter is out of range, elaboration stops in every tool at a module that does not
+  // exist and whose name says which parameter it is.
+  std::string checks;
+  for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
+    if (setting.rtl_parameter.empty()) continue;
+    checks += fmt::format(
+        " \\\n  if ({0} < {1} || {0} > {2}) begin : {0}_out_of_range"
+        " \\\n    {0}_must_be_{1}_to_{2} stop (); end",
+        setting.rtl_parameter, setting.low, setting.high);
+  }
+  fmt::print("`define PHONGPIPE_CHECK_PARAMETERS{}\n", checks);
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "model/files/spelling.h"
 #include "model/files/text_file.h"
@@ -16,54 +17,54 @@
 namespace phongpipe {
 namespace {
 
-template <typename Enum>
-Setting choice(std::string_view section, std::string_view key,
-               std::vector<std::string_view> choices, Enum& value) {
-  return {section, key, std::move(choices), [&value] { return static_cast<int>(value); },
-          [&value](int index) { value = static_cast<Enum>(index); }};
-}
+using HardwareSetting = Setting<Hardware>;
 
-Setting number(std::string_view section, std::string_view key, int& value) {
-  return {section, key, {}, [&value] { return value; }, [&value](int set) { value = set; }};
-}
+// The value that `text` names, or an explanation of what would be right.
+struct ParsedValue {
+  std::optional<int> value;
+  std::string complaint;
+};
 
-void check(const Hardware& hardware) {
-  hardware.datapath.check();
-  hardware.pipeline.check();
+ParsedValue parse_value(const HardwareSetting& setting, std::string_view text) {
+  if (setting.choices.empty()) {
+    const auto integer = parse_integer(text);
+    if (integer && *integer == static_cast<int>(*integer)) return {static_cast<int>(*integer), {}};
+    return {{}, fmt::format("{} takes a whole number", setting.key)};
+  }
+  const auto found = std::find(setting.choices.begin(), setting.choices.end(), text);
+  if (found != setting.choices.end()) {
+    return {static_cast<int>(found - setting.choices.begin()), {}};
+  }
+  return {{}, fmt::format("{} is one of {}", setting.key, fmt::join(setting.choices, ", "))};
 }
 
 void read_file(Hardware& hardware, const std::filesystem::path& file, std::string& technology) {
   const TomlTable table = TomlTable::read_file(file);
   technology = table.text("technology", technology);
-  std::vector<Setting> all = settings(hardware);
-  while (!all.empty()) {
-    const std::string section(all.front().section);
-    const auto in_section = [&section](const Setting& s) { return s.section == section; };
-    if (const auto part = table.optional_table(section)) {
-      for (const Setting& setting : all) {
-        if (!in_section(setting) || !part->has(setting.key)) continue;
-        if (setting.choices.empty()) {
-          setting.put(part->integer(setting.key, std::numeric_limits<int>::min(),
-                                    std::numeric_limits<int>::max()));
-        } else {
-          const std::string text = part->text(setting.key);
-          const auto found = std::find(setting.choices.begin(), setting.choices.end(), text);
-          if (found == setting.choices.end()) {
-            part->fail(setting.key, fmt::format("{} = \"{}\" is none of {}", setting.key, text,
-                                                fmt::join(setting.choices, ", ")));
-          }
-          setting.put(static_cast<int>(found - setting.choices.begin()));
-        }
-        try {
-          check(hardware);
-        } catch (const InputError& error) {
-          part->fail(setting.key, error.what());
-        }
-      }
-      part->finish();
+  std::string_view section;
+  std::optional<TomlTable> part;
+  for (const HardwareSetting& setting : hardware_settings()) {
+    if (setting.section != section) {
+      if (part) part->finish();
+      section = setting.section;
+      part = table.optional_table(section);
     }
-    all.erase(std::remove_if(all.begin(), all.end(), in_section), all.end());
+    if (!part || !part->has(setting.key)) continue;
+    if (setting.choices.empty()) {
+      setting.put(hardware, part->integer(setting.key, std::numeric_limits<int>::min(),
+                                          std::numeric_limits<int>::max()));
+    } else {
+      const auto [value, complaint] = parse_value(setting, part->text(setting.key));
+      if (!value) part->fail(setting.key, complaint);
+      setting.put(hardware, *value);
+    }
+    try {
+      setting.check(hardware);
+    } catch (const InputError& error) {
+      part->fail(setting.key, error.what());
+    }
   }
+  if (part) part->finish();
   table.finish();
 }
 
@@ -78,23 +79,15 @@ void apply_override(Hardware& hardware, const std::string& text, std::string& te
     return;
   }
   std::vector<std::string> known = {"technology"};
-  for (const Setting& setting : settings(hardware)) {
+  for (const HardwareSetting& setting : hardware_settings()) {
     known.emplace_back(setting.name());
     known.emplace_back(setting.key);
     if (key != setting.key && key != setting.name()) continue;
-    const auto found = std::find(setting.choices.begin(), setting.choices.end(), value);
-    if (!setting.choices.empty() && found == setting.choices.end()) {
-      throw InputError(fmt::format("--set {}: {} is one of {}", text, setting.key,
-                                   fmt::join(setting.choices, ", ")));
-    }
-    const auto integer = parse_integer(value);
-    if (setting.choices.empty() && (!integer || *integer != static_cast<int>(*integer))) {
-      throw InputError(fmt::format("--set {}: {} takes a whole number", text, setting.key));
-    }
-    setting.put(setting.choices.empty() ? static_cast<int>(*integer)
-                                        : static_cast<int>(found - setting.choices.begin()));
+    const ParsedValue parsed = parse_value(setting, value);
+    if (!parsed.value) throw InputError(fmt::format("--set {}: {}", text, parsed.complaint));
+    setting.put(hardware, *parsed.value);
     try {
-      check(hardware);
+      setting.check(hardware);
     } catch (const InputError& error) {
       throw InputError(fmt::format("--set {}: {}", text, error.what()));
     }
@@ -102,65 +95,34 @@ void apply_override(Hardware& hardware, const std::string& text, std::string& te
   }
   const std::string close = closest_word(key, known);
   throw InputError(fmt::format("--set {}: unknown key; {}", text,
-                               close.empty() ? "`phongpipe verify --help` lists them"
+                               close.empty() ? "`phongpipe verify --help-settings` lists them"
                                              : fmt::format("did you mean {}?", close)));
+}
+
+Settings<Hardware> all_settings() {
+  Settings<Hardware> all;
+  const auto add = [&all](const auto& settings, auto part) {
+    for (const auto& setting : settings) all.push_back(setting.of(part));
+  };
+  add(SetupPolicy::settings(), &Hardware::setup);
+  add(PipelineConfiguration::settings(), &Hardware::pipeline);
+  add(FixedPointFormats::settings(), &Hardware::formats);
+  const auto place = [](const HardwareSetting& setting) {
+    constexpr std::string_view kSections[] = {"datapath", "setup_engine", "span_walker",
+                                              "framebuffer", "queues"};
+    return std::find(std::begin(kSections), std::end(kSections), setting.section);
+  };
+  std::stable_sort(all.begin(), all.end(), [&](const HardwareSetting& a, const HardwareSetting& b) {
+    return place(a) < place(b);
+  });
+  return all;
 }
 
 }  // namespace
 
-std::string Setting::name() const {
-  return fmt::format("{}.{}", section, key);
-}
-
-std::string Setting::value() const {
-  return choices.empty() ? fmt::format("{}", get())
-                         : std::string(choices[static_cast<std::size_t>(get())]);
-}
-
-std::vector<Setting> settings(Hardware& hardware) {
-  DatapathConfiguration& d = hardware.datapath;
-  PipelineConfiguration& p = hardware.pipeline;
-  Setting channels = {"datapath", "channels", {"auto", "1", "3"}, nullptr, nullptr};
-  channels.get = [&hardware] {
-    return hardware.choose_channels ? 0 : (hardware.datapath.channels + 1) / 2;
-  };
-  channels.put = [&hardware](int index) {
-    hardware.choose_channels = index == 0;
-    if (index > 0) hardware.datapath.channels = 2 * index - 1;
-  };
-  return {
-      channels,
-      number("datapath", "diffuse_fraction_bits", d.diffuse_fraction_bits),
-      number("datapath", "specular_fraction_bits", d.specular_fraction_bits),
-      number("datapath", "rom_address_bits", d.rom_address_bits),
-      number("datapath", "rom_data_bits", d.rom_data_bits),
-      choice("datapath", "index_rounding", {"nearest", "truncate"}, d.index_rounding),
-      choice("datapath", "specular_gate", {"off", "diffuse", "series"}, d.gate),
-      choice("datapath", "anchor", {"triangle", "span"}, d.anchor),
-      choice("setup_engine", "series", series_fit_names(), d.series_fit),
-      number("setup_engine", "subdivide_degrees", d.subdivide_degrees),
-      number("setup_engine", "adders", p.adders.count),
-      number("setup_engine", "adders_latency", p.adders.latency),
-      number("setup_engine", "adders_interval", p.adders.interval),
-      number("setup_engine", "multipliers", p.multipliers.count),
-      number("setup_engine", "multipliers_latency", p.multipliers.latency),
-      number("setup_engine", "multipliers_interval", p.multipliers.interval),
-      number("setup_engine", "rsqrt", p.rsqrt.count),
-      number("setup_engine", "rsqrt_latency", p.rsqrt.latency),
-      number("setup_engine", "rsqrt_interval", p.rsqrt.interval),
-      number("setup_engine", "power_units", p.power.count),
-      number("setup_engine", "power_units_latency", p.power.latency),
-      number("setup_engine", "power_units_interval", p.power.interval),
-      number("span_walker", "triangle_cycles", p.walker_triangle_cycles),
-      number("span_walker", "row_cycles", p.walker_row_cycles),
-      number("framebuffer", "write_cycles", p.framebuffer_write_cycles),
-      number("framebuffer", "test_cycles", p.framebuffer_test_cycles),
-      number("framebuffer", "add_cycles", p.framebuffer_add_cycles),
-      number("framebuffer", "depth_bits", p.depth_bits),
-      number("queues", "triangles", p.triangle_fifo),
-      number("queues", "spans", p.span_fifo),
-      number("queues", "pixels", p.pixel_fifo),
-  };
+const Settings<Hardware>& hardware_settings() {
+  static const Settings<Hardware> all = all_settings();
+  return all;
 }
 
 Hardware load_hardware(const std::string& name, const std::vector<std::string>& overrides) {
@@ -174,31 +136,30 @@ Hardware load_hardware(const std::string& name, const std::vector<std::string>& 
   return hardware;
 }
 
-void suit_scene(Hardware& hardware, const Scene& scene, const Geometry& geometry, Effects effects) {
-  if (hardware.choose_channels) {
-    const bool grey = effects == Effects::derived && is_grey(scene, geometry);
-    hardware.datapath.channels = grey ? 1 : 3;
-  }
-  hardware.datapath = suit_scene(hardware.datapath, scene, geometry, effects);
+Hardware resolved(const Hardware& hardware, const EffectBlocks& blocks) {
+  Hardware result = hardware;
+  result.formats.channel_choice = blocks.channels == 1 ? ChannelChoice::one : ChannelChoice::three;
+  result.formats.gate_choice = blocks.gate;
+  return result;
 }
 
 std::string method_of(const Hardware& hardware, const Scene& scene) {
-  std::string name(series_fit_names()[static_cast<std::size_t>(hardware.datapath.series_fit)]);
+  std::string name(series_fit_names()[static_cast<std::size_t>(hardware.setup.series_fit)]);
   if (scene.shading.viewer == Viewer::local) name += kLocalSuffix;
   return name;
 }
 
-std::string configuration_hash(const Hardware& hardware) {
-  Hardware copy = hardware;
-  copy.choose_channels = false;
+std::string configuration_hash(const Hardware& resolved_hardware) {
   FnvHash hash;
   const auto add = [&hash](const std::string& text) {
     for (const char c : text + "\n") {
       hash.add(static_cast<unsigned char>(c));
     }
   };
-  for (const Setting& setting : settings(copy)) add(setting.name() + "=" + setting.value());
-  add("technology=" + hardware.technology.name);
+  for (const HardwareSetting& setting : hardware_settings()) {
+    add(setting.name() + "=" + setting.value(resolved_hardware));
+  }
+  add("technology=" + resolved_hardware.technology.name);
   return fmt::format("{:016x}", hash.value());
 }
 

@@ -1,54 +1,46 @@
-// The hardware of a run: datapath, pipeline and technology, from a preset, a file and --set.
+// The hardware of a run: formats, setup policy, pipeline and technology, from a preset, a file and
+// --set.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "model/fixed/frame_setup.h"
+#include "model/fixed/datapath_configuration.h"
+#include "model/scene/scene.h"
 #include "sim/pipeline_configuration.h"
 #include "testbench/hardware/technology.h"
 
 namespace phongpipe {
 
+// All that a user chooses.
 struct Hardware {
   std::string name;  // of the preset or file
-  DatapathConfiguration datapath;
-  bool choose_channels = true;  // one for grey scenes, else three
+  FixedPointFormats formats;
+  SetupPolicy setup;
   PipelineConfiguration pipeline;
   Technology technology;
-
-  double clock_ns() const { return technology.clock_ns(datapath); }
 };
 
-// One knob, under the name it has in files, in --set and in reports.
-struct Setting {
-  std::string_view section, key;
-  std::vector<std::string_view> choices;  // empty: a whole number
-  std::function<int()> get;               // the number, or the choice's index
-  std::function<void(int)> put;
-
-  std::string name() const;
-  std::string value() const;
-};
-
-// All knobs of `hardware`, which must outlive them.
-std::vector<Setting> settings(Hardware& hardware);
+// All settings, section by section, in the order of reports and hashes. The technology, which is a
+// name, is not among them.
+const Settings<Hardware>& hardware_settings();
 
 // `name`: a preset or a file. `overrides`: key=value, with or without the section, or
 // technology=card. Throws InputError.
 Hardware load_hardware(const std::string& name, const std::vector<std::string>& overrides);
 
-// Sets what the scene decides: channels, the blocks of its effects, the source of the gate.
-void suit_scene(Hardware& hardware, const Scene& scene, const Geometry& geometry,
-                Effects effects = Effects::derived);
+// Replaces what was left to the scene (the number of channels, the source of the gate) by what the
+// scene has decided.
+Hardware resolved(const Hardware& hardware, const EffectBlocks& blocks);
 
-// The method that is the hardware's series in real arithmetic; those for a local viewer end alike.
+// The shading method that is the hardware's series in real arithmetic; those for a local viewer end
+// alike.
 constexpr std::string_view kLocalSuffix = "-local";
 std::string method_of(const Hardware& hardware, const Scene& scene);
 
-// Identifies a result: a hash over every setting and the technology, 16 hexadecimal digits.
-std::string configuration_hash(const Hardware& hardware);
+// Identifies a result: a hash over every setting of resolved hardware and the technology, 16
+// hexadecimal digits.
+std::string configuration_hash(const Hardware& resolved_hardware);
 
 }  // namespace phongpipe

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "model/files/scene_file.h"
 #include "model/scene/input_error.h"
 #include "model/scene/subdivision.h"
 #include "testbench/methods/curves.h"
@@ -85,7 +84,7 @@ class SceneComparison {
         geometry_(geometry),
         comparison_(comparison),
         whole_(scene, geometry, 0),
-        pieces_(scene, geometry, comparison.hardware.datapath.subdivide_degrees),
+        pieces_(scene, geometry, comparison.hardware.setup.subdivide_degrees),
         parts_(has_highlight(geometry) ? Parts::full : Parts::diffuse) {
     comparison.triangles = whole_.visibility.triangles;
     comparison.spans = whole_.visibility.spans;
@@ -174,7 +173,7 @@ class SceneComparison {
     result.clocks_per_pixel =
         amortised(result.costs, visibility,
                   [&units](const OperationCounts& counts) { return clocks(counts, units); });
-    result.ns_per_pixel = result.clocks_per_pixel * comparison_.hardware.clock_ns();
+    result.ns_per_pixel = result.clocks_per_pixel * comparison_.clock_ns;
     result.operations_per_pixel = amortised(result.costs, visibility, sequential_operations);
     result.break_even_pixels = break_even_pixels(result.costs, phong, sequential_operations);
   }
@@ -211,24 +210,24 @@ class SceneComparison {
 
 }  // namespace
 
-Comparison compare(const std::filesystem::path& file, const Hardware& hardware,
+Comparison compare(const Scene& scene, const Hardware& hardware,
                    const std::function<void(const std::string&)>& progress, PowerKind power) {
   Comparison comparison;
   comparison.power = power;
-  comparison.scene = file;
-  comparison.hardware = hardware;
-  const Scene scene = load_scene(file);
+  comparison.scene = scene.source;
   const Geometry geometry = make_geometry(scene);
-  suit_scene(comparison.hardware, scene, geometry);
+  const EffectBlocks blocks = derive_blocks(hardware.formats, scene, geometry);
+  comparison.hardware = resolved(hardware, blocks);
+  comparison.clock_ns = hardware.technology.clock_ns({hardware.formats, blocks});
   comparison.width = scene.image.width;
   comparison.height = scene.image.height;
   comparison.channels = is_grey(scene, geometry) ? 1 : 3;
   SceneComparison measured(scene, geometry, comparison);
   for (const ShadingMethod& method : shading_methods()) {
-    progress(fmt::format("{}: {}", file.string(), method.name));
+    progress(fmt::format("{}: {}", scene.source, method.name));
     comparison.methods.push_back(measured.measure(method));
   }
-  progress(fmt::format("{}: best", file.string()));
+  progress(fmt::format("{}: best", scene.source));
   comparison.methods.push_back(measured.measure_limit());
   return comparison;
 }

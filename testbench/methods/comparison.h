@@ -1,7 +1,6 @@
 // All shading methods on one scene: what each costs, and how far it is from exact Phong shading.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -36,8 +35,9 @@ struct MethodResult {
 };
 
 struct Comparison {
-  std::filesystem::path scene;
-  Hardware hardware;
+  std::string scene;  // what messages call it
+  Hardware hardware;  // resolved
+  double clock_ns = 0;
   int width = 0, height = 0, channels = 3;
   std::size_t triangles = 0, spans = 0, pixels = 0;  // with a pixel; rows; shaded
   PowerKind power = PowerKind::exact;
@@ -46,7 +46,7 @@ struct Comparison {
 };
 
 // `power`: of the methods' highlights; an exact one is counted as a table read.
-Comparison compare(const std::filesystem::path& scene, const Hardware& hardware,
+Comparison compare(const Scene& scene, const Hardware& hardware,
                    const std::function<void(const std::string&)>& progress,
                    PowerKind power = PowerKind::exact);
 

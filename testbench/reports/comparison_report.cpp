@@ -14,6 +14,11 @@
 namespace phongpipe {
 namespace {
 
+// Without folders and extension, as files and titles have it.
+std::string name_of(const Comparison& comparison) {
+  return std::filesystem::path(comparison.scene).stem().string();
+}
+
 std::string operations_text(const OperationCounts& c) {
   return fmt::format("{}/{}/{}/{}/{}", c.add, c.multiply, c.divide, c.sqrt + c.rsqrt, c.read);
 }
@@ -35,7 +40,7 @@ std::string subdivision_text(const Comparison& c) {
       "{} triangles over which normals turn by more than {}°, or highlight or light too far, are "
       "split into {} "
       "for the fitted quadratics\n",
-      c.split, c.hardware.datapath.subdivide_degrees, c.pieces);
+      c.split, c.hardware.setup.subdivide_degrees, c.pieces);
 }
 
 nlohmann::ordered_json operations_json(const OperationCounts& c) {
@@ -87,11 +92,11 @@ std::string comparison_text(const Comparison& comparison) {
       "{}: {} triangles, {} spans, {} pixels shaded; clock {:.2f} ns ({})\n{}"
       "{:<20} {:>12} {:>14} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8} {:>8} {:>7}\n"
       "{:<20} {:>12} {:>14} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8} {:>8} {:>7}\n",
-      comparison.scene.string(), comparison.triangles, comparison.spans, comparison.pixels,
-      comparison.hardware.clock_ns(), comparison.hardware.technology.name,
-      subdivision_text(comparison), "method", "a pixel", "a triangle", "clocks", "ns", "speed",
-      "pays from", "largest", "largest", "RMS", "seam", "", "+/×/÷/√/read", "+/×/÷/√/read",
-      "a pixel", "a pixel", "×Phong", "pixels", "LSB", "×Taylor", "LSB", "LSB");
+      comparison.scene, comparison.triangles, comparison.spans, comparison.pixels,
+      comparison.clock_ns, comparison.hardware.technology.name, subdivision_text(comparison),
+      "method", "a pixel", "a triangle", "clocks", "ns", "speed", "pays from", "largest", "largest",
+      "RMS", "seam", "", "+/×/÷/√/read", "+/×/÷/√/read", "a pixel", "a pixel", "×Phong", "pixels",
+      "LSB", "×Taylor", "LSB", "LSB");
   const double phong = wall_clock_of_phong(comparison);
   const double taylor = largest_error_of_taylor(comparison);
   for (const MethodResult& r : comparison.methods) {
@@ -156,12 +161,12 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
               {"seam_lsb", r.seam}});
     methods.push_back(std::move(j));
   }
-  return {{"scene", comparison.scene.string()},
+  return {{"scene", comparison.scene},
           {"triangles", comparison.triangles},
           {"spans", comparison.spans},
           {"pixels", comparison.pixels},
           {"subdivision", {{"triangles", comparison.split}, {"pieces", comparison.pieces}}},
-          {"clock_ns", comparison.hardware.clock_ns()},
+          {"clock_ns", comparison.clock_ns},
           {"methods", methods}};
 }
 
@@ -172,8 +177,7 @@ std::string comparison_csv(const Comparison& comparison) {
   const double phong = wall_clock_of_phong(comparison);
   for (const MethodResult& r : comparison.methods) {
     if (!r.refused.empty()) {
-      text +=
-          fmt::format("{},{},\"{}\",,,,,,,,,,,\n", comparison.scene.string(), r.name, r.refused);
+      text += fmt::format("{},{},\"{}\",,,,,,,,,,,\n", comparison.scene, r.name, r.refused);
       continue;
     }
     const OperationCounts pixel = r.costs.pixel + r.costs.combine;
@@ -182,15 +186,15 @@ std::string comparison_csv(const Comparison& comparison) {
                    : fmt::format("{},{},{},{},{},{},{},{}", pixel.add, pixel.multiply, pixel.divide,
                                  pixel.sqrt + pixel.rsqrt, pixel.read, r.clocks_per_pixel,
                                  r.ns_per_pixel, phong / r.wall_clock_ns);
-    text += fmt::format("{},{},,{},{},{},{}\n", comparison.scene.string(), r.name, cost,
-                        r.error.largest, r.error.rms(), r.seam);
+    text += fmt::format("{},{},,{},{},{},{}\n", comparison.scene, r.name, cost, r.error.largest,
+                        r.error.rms(), r.seam);
   }
   return text;
 }
 
 Chart accuracy_against_time(const Comparison& comparison) {
   Chart chart;
-  chart.title = comparison.scene.stem().string() + ": accuracy against time";
+  chart.title = name_of(comparison) + ": accuracy against time";
   chart.x_label = "ns a pixel on the setup engine's units";
   chart.y_label = "largest error, LSB";
   chart.log_x = chart.log_y = true;
@@ -209,7 +213,7 @@ Chart accuracy_against_time(const Comparison& comparison) {
 }
 
 void write_comparison_page(const Comparison& comparison, const std::filesystem::path& folder) {
-  const std::string scene = comparison.scene.stem().string();
+  const std::string scene = name_of(comparison);
   std::filesystem::create_directories(folder);
   std::string page = fmt::format(
       "<!doctype html><meta charset=\"utf-8\"><title>{0}: shading methods</title>\n"

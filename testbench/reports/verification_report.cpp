@@ -6,23 +6,33 @@
 
 #include <cmath>
 
+#include "testbench/cosim/metrics.h"
+#include "testbench/system/record_json.h"
+
 namespace phongpipe {
 namespace {
+
+using nlohmann::ordered_json;
+
+enum class Tone { good, bad, warning };
 
 class Page {
  public:
   explicit Page(bool color) : color_(color) {}
 
-  template <typename... Args>
-  void line(const char* label, fmt::format_string<Args...> format, Args&&... args) {
-    text_ += fmt::format("  {:<14} {}\n", label, fmt::format(format, std::forward<Args>(args)...));
+  void line(std::string_view label, const std::string& text) {
+    text_ += fmt::format("  {:<8} {}\n", label, text);
   }
   void plain(const std::string& text) { text_ += text + "\n"; }
-  std::string verdict(bool good, const std::string& text) const {
+  std::string toned(Tone tone, const std::string& text) const {
     if (!color_) return text;
-    const auto style =
-        fmt::emphasis::bold | fmt::fg(good ? fmt::terminal_color::green : fmt::terminal_color::red);
-    return fmt::format(style, "{}", text);
+    const auto color = tone == Tone::good  ? fmt::terminal_color::green
+                       : tone == Tone::bad ? fmt::terminal_color::red
+                                           : fmt::terminal_color::yellow;
+    return fmt::format(fmt::emphasis::bold | fmt::fg(color), "{}", text);
+  }
+  std::string verdict(bool passed) const {
+    return toned(passed ? Tone::good : Tone::bad, passed ? "PASSED" : "FAILED");
   }
   const std::string& text() const { return text_; }
 
@@ -30,6 +40,10 @@ class Page {
   bool color_;
   std::string text_;
 };
+
+std::string grouped(std::uint64_t number) {
+  return metric_text(static_cast<std::int64_t>(number));
+}
 
 std::string color_text(std::uint32_t color, int channels) {
   std::string hex, lsb;
@@ -41,247 +55,304 @@ std::string color_text(std::uint32_t color, int channels) {
   return fmt::format("0x{} ({} LSB)", hex, lsb);
 }
 
-void report_account(Page& page, const char* name, const Account& account, const Verification& v) {
-  const bool good =
-      account.mismatches == 0 && account.frame_mismatches == 0 && account.failure.empty();
-  page.line(
-      name, "{}",
-      page.verdict(good, fmt::format("{} mismatches in {} pixels, {} in the final frame",
-                                     account.mismatches, v.pixels, account.frame_mismatches)));
-  if (!account.failure.empty()) page.line("", "{}", page.verdict(false, account.failure));
-  if (!account.first) return;
-  const Divergence& d = *account.first;
-  const int channels = v.hardware.datapath.channels;
-  page.line("",
-            "first divergence: pixel {} of the stream, triangle {}, x {}, y {}, cycle {}, seed {}",
-            d.place, d.triangle, d.model.x, d.model.y, d.cycle, v.options.seed);
-  page.line("", "model:   {}", color_text(d.model.color, channels));
-  page.line("", "{:<8} {}", fmt::format("{}:", name),
-            d.missing ? std::string("the stream ended before it")
-                      : fmt::format("{} at x {}, y {}", color_text(d.other.color, channels),
-                                    d.other.x, d.other.y));
+std::string heading(const Page& page, const VerificationResult& r) {
+  return fmt::format("{} {}  {}×{}, {} pixels, hardware {} {}", page.verdict(r.passed()), r.scene,
+                     r.width, r.height, grouped(r.pixels), r.hardware.name,
+                     configuration_hash(r.hardware).substr(0, 8));
 }
 
-void report_hardware(Page& page, const Verification& v) {
-  Hardware hardware = v.hardware;
-  hardware.choose_channels = false;
-  const DatapathConfiguration& d = hardware.datapath;
-  std::string_view section;
-  std::string text;
-  for (const Setting& setting : settings(hardware)) {
-    if (setting.section != section && !text.empty()) {
-      page.line(std::string(section).c_str(), "{}", text);
-      text.clear();
-    }
-    section = setting.section;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", setting.key, setting.value());
-  }
-  page.line(std::string(section).c_str(), "{}", text);
-  page.line("formats", "diffuse s{}.{}, specular s{}.{}; {} series, {} adders, ROM {} × {} bits{}",
-            d.diffuse_width() - 1 - d.diffuse_fraction_bits, d.diffuse_fraction_bits,
-            d.specular_width() - 1 - d.specular_fraction_bits, d.specular_fraction_bits, d.series(),
-            d.adders(), d.rom_words(), d.channels * d.rom_data_bits,
-            d.has_gate_series() ? "; 2 adders of them only for the sign of N·L" : "");
-  const OperationCounts& counts = v.systemc.setup_operations;
-  const auto each = [&v](auto count) {
-    return static_cast<double>(count) / static_cast<double>(v.triangles_set_up);
-  };
-  page.line("setup",
-            "{:.1f} cycles a triangle, on average, for {:.1f} additions, {:.1f} multiplications, "
-            "{:.1f} 1/√, {:.1f} powers",
-            each(v.systemc.setup_cycles), each(counts.add), each(counts.multiply),
-            each(counts.rsqrt), each(counts.power));
-  if (v.triangles_split > 0) {
+// The block that has the most to do.
+std::string_view limiting_block(const VerificationResult& r) {
+  const SimulationCounts& counts = r.systemc.counts;
+  const std::int64_t busy = r.rtl.counts.datapath_busy_cycles;
+  if (counts.setup_cycles >= busy) return "setup";
+  // A datapath that is occupied for longer than its pixels and tables take waits for its output.
+  const auto own = static_cast<double>(r.pixels) + static_cast<double>(counts.rom_load_cycles);
+  constexpr double kNoticeable = 1.25;
+  return static_cast<double>(busy) > kNoticeable * own ? "framebuffer" : "pixel_datapath";
+}
+
+std::pair<std::string_view, double> largest_link(const Accuracy& a) {
+  const std::pair<std::string_view, double> links[] = {{"series", a.series.largest},
+                                                       {"rounding", a.rounding.largest},
+                                                       {"table", a.rom.largest},
+                                                       {"output", a.output.largest}};
+  return *std::max_element(std::begin(links), std::end(links),
+                           [](const auto& x, const auto& y) { return x.second < y.second; });
+}
+
+// The command that verifies the same once more; `more` is appended.
+std::string command_text(const VerificationResult& r, const ReportStyle& style,
+                         const std::string& more) {
+  return fmt::format("{} {}{}", style.command, r.scene, more);
+}
+
+void report_implementation(Page& page, const char* name, const ImplementationResult& found,
+                           const VerificationResult& r) {
+  if (found.agrees()) return;
+  page.line("differs",
+            page.toned(Tone::bad, fmt::format("{} ≠ model: {} of {} pixels, {} of the "
+                                              "final frame",
+                                              name, grouped(found.stream_mismatches),
+                                              grouped(r.pixels), grouped(found.frame_mismatches))));
+  if (!found.counts.failure.empty()) page.line("", page.toned(Tone::bad, found.counts.failure));
+  if (!found.first_divergence) return;
+  const Divergence& d = *found.first_divergence;
+  const int channels = r.configuration.channels;
+  page.line("first",
+            fmt::format("triangle {}, x {}, y {}, cycle {}, pixel {} of the stream, seed {}",
+                        d.triangle, d.model.x, d.model.y, d.cycle, d.stream_index, r.options.seed));
+  page.line("", fmt::format("model    {}", color_text(d.model.color, channels)));
+  page.line("", fmt::format(
+                    "{:<8} {}", name,
+                    d.missing ? std::string("ended before this pixel")
+                              : fmt::format("{} at x {}, y {}", color_text(d.found.color, channels),
+                                            d.found.x, d.found.y)));
+}
+
+// The lines that tell what does not hold.
+void report_failures(Page& page, const VerificationResult& r, const ReportStyle& style) {
+  report_implementation(page, "SystemC", r.systemc, r);
+  report_implementation(page, "RTL", r.rtl, r);
+  if (r.systemc.agrees() && r.rtl.agrees() && !r.same_cycles()) {
     page.line(
-        "subdivision",
-        "{} triangles over which normals turn by more than {}°, or highlight or light too far, "
-        "split into {}",
-        v.triangles_split, d.subdivide_degrees, v.pieces);
+        "differs",
+        page.toned(
+            Tone::bad,
+            r.cycle_difference() != 0
+                ? fmt::format("the frame takes {} cycles in SystemC, {} with the RTL",
+                              grouped(static_cast<std::uint64_t>(r.systemc.counts.frame_cycles)),
+                              grouped(static_cast<std::uint64_t>(r.rtl.counts.frame_cycles)))
+                : std::string("pixels leave SystemC and RTL in other cycles")));
+  }
+  if (r.full_hardware && !r.full_hardware->systemc.agrees()) {
+    page.line("differs",
+              page.toned(Tone::bad, fmt::format("{} pixels of hardware with every effect",
+                                                r.full_hardware->systemc.frame_mismatches)));
+  }
+  if (r.set_up.overflows > 0) {
+    page.line("overflow",
+              page.toned(Tone::bad,
+                         fmt::format("{} triangles have values that do not fit their registers, so "
+                                     "that their pixels may be wrong: is a light too close or "
+                                     "bright, or [depth_cue] narrow?",
+                                     r.set_up.overflows)));
+  }
+  if (!r.passed()) {
+    page.line("again",
+              command_text(
+                  r, style,
+                  r.options.detail == Detail::cycle ? " --verbose" : " --detail cycle --verbose"));
   }
 }
 
-// What `own` needs of `all`, and the difference in per cent.
-template <typename Count>
-std::string of_all(Count own, Count all) {
-  const double part = all > 0 ? static_cast<double>(own) / static_cast<double>(all) - 1 : 0;
-  const double percent = std::round(100 * part);
-  return fmt::format("{} of {} ({:+.0f} %)", own, all, percent == 0 ? 0.0 : percent);
+std::string time_text(const Page& page, const VerificationResult& r) {
+  const std::string frame =
+      fmt::format("{:.2f} of {:g} ns a pixel", r.frame_ns_per_pixel(), r.options.budget_ns);
+  return fmt::format("{}; datapath {:.2f}; limited by {}",
+                     r.within_budget() ? frame : page.toned(Tone::bad, frame + ", OVER BUDGET"),
+                     r.datapath_ns_per_pixel(), limiting_block(r));
 }
 
-std::size_t operations(const OperationCounts& counts) {
-  return counts.add + counts.multiply + counts.rsqrt + counts.power;
+std::string error_text(const VerificationResult& r) {
+  const auto [link, largest] = largest_link(r.accuracy);
+  return fmt::format("at most {:.2f} LSB, RMS {:.2f}; largest part: {} {:.2f}",
+                     r.accuracy.total.largest, r.accuracy.total.rms(), link, largest);
 }
 
-std::uint64_t operations(const PixelOperations& counts) {
-  return counts.additions + counts.multiplications + counts.reads;
+void report_warnings(Page& page, const VerificationResult& r) {
+  for (const std::string& note : r.notes) page.line("note", note);
+  if (r.rom_error > 0.01) {
+    page.line("warning",
+              page.toned(Tone::warning,
+                         fmt::format("the ROM errs by up to {:.2f} % of a full highlight; raise "
+                                     "rom_address_bits, or bring the shininess nearer to 1",
+                                     100 * r.rom_error)));
+  }
 }
 
-void report_effects(Page& page, const Verification& v) {
-  page.line("effects", "{}", fmt::join(v.effects.used, ", "));
-  if (!v.everything) {
+// The metrics by which hardware for the scene and hardware with everything are compared.
+template <typename Visit>
+void for_each_block_metric(const VerificationResult& r, Visit visit) {
+  VerificationResult full;
+  if (r.full_hardware) {
+    full.pixels = r.pixels;
+    full.configuration = {r.full_hardware->datapath, r.configuration};
+    full.clock_ns = r.hardware.technology.clock_ns(r.full_hardware->datapath);
+    full.systemc = r.full_hardware->systemc;
+  }
+  for (const Metric& metric : metrics()) {
+    if (metric.of_blocks) visit(metric, metric.value(r), metric.value(full));
+  }
+}
+
+double as_double(const MetricValue& value) {
+  return std::visit([](auto number) { return static_cast<double>(number); }, value);
+}
+
+void report_effects(Page& page, const VerificationResult& r) {
+  page.plain("effects");
+  page.line("used", fmt::format("{}", fmt::join(r.effects.used, ", ")));
+  if (r.options.effects == EffectsToVerify::all) {
     page.line("", "everything is built and simulated, whether the scene has it or not");
     return;
   }
-  page.line("left out", "{}", fmt::join(v.effects.left_out, ", "));
-  const Account &own = v.systemc, &all = v.everything->systemc;
-  const DatapathConfiguration &built = v.hardware.datapath, &full = v.everything->datapath;
-  page.line("of everything", "cycles {}, setup operations {}, pixel operations {}",
-            of_all(own.frame_cycles, all.frame_cycles),
-            of_all(operations(own.setup_operations), operations(all.setup_operations)),
-            of_all(operations(own.pixel_operations), operations(all.pixel_operations)));
-  page.line("", "adders {}, multipliers {} of {}, ROM bits {}, clock {:.2f} of {:.2f} ns",
-            of_all(built.adders(), full.adders()), built.multipliers(), full.multipliers(),
-            of_all(built.rom_bits(), full.rom_bits()), v.hardware.clock_ns(),
-            v.hardware.technology.clock_ns(full));
-  page.line("", "SystemC modules {} of {}, simulation {:.0f} ms of {:.0f} ms; {}",
-            own.modules.size(), all.modules.size(), 1e3 * own.seconds, 1e3 * all.seconds,
-            page.verdict(all.frame_mismatches == 0,
-                         fmt::format("{} pixels differ from everything's", all.frame_mismatches)));
+  page.line("left out", fmt::format("{}", fmt::join(r.effects.left_out, ", ")));
+  if (!r.full_hardware) {
+    page.line("", "--effects both tells what that saves");
+    return;
+  }
+  page.plain("hardware for the scene, with every effect, and the difference");
+  for_each_block_metric(
+      r, [&](const Metric& metric, const MetricValue& own, const MetricValue& full) {
+        const double all = as_double(full);
+        const double percent = all > 0 ? std::round(100 * (as_double(own) / all - 1)) : 0;
+        page.plain(fmt::format("  {:<27} {:>14} {:>14} {:+5.0f} %", metric.name, metric_text(own),
+                               metric_text(full), percent == 0 ? 0.0 : percent));
+      });
 }
 
-nlohmann::ordered_json built_json(const Verification& v, const DatapathConfiguration& datapath,
-                                  const Account& account) {
-  return {{"clock_ns", v.hardware.technology.clock_ns(datapath)},
-          {"frame_cycles", account.frame_cycles},
-          {"setup_operations", operations(account.setup_operations)},
-          {"pixel_operations", operations(account.pixel_operations)},
-          {"adders", datapath.adders()},
-          {"multipliers", datapath.multipliers()},
-          {"rom_bits", datapath.rom_bits()},
-          {"modules", account.modules},
-          {"simulation_seconds", account.seconds}};
+void report_details(Page& page, const VerificationResult& r) {
+  page.plain("settings");
+  std::string_view section;
+  std::string text;
+  const auto flush = [&] {
+    if (!text.empty()) page.plain(fmt::format("  {:<13} {}", section, text));
+    text.clear();
+  };
+  for (const Setting<Hardware>& setting : hardware_settings()) {
+    if (setting.section != section) flush();
+    section = setting.section;
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "" : ", ", setting.key, setting.value(r.hardware));
+  }
+  flush();
+  page.plain(fmt::format("  {:<13} {}: {}", "technology", r.hardware.technology.name,
+                         r.hardware.technology.source));
+  const FrameConfiguration& c = r.configuration;
+  page.plain(fmt::format("  {:<13} diffuse s{}.{}, specular s{}.{}; {} series, ROM {} × {} bits",
+                         "formats", c.diffuse_width() - 1 - c.diffuse_fraction_bits,
+                         c.diffuse_fraction_bits, c.specular_width() - 1 - c.specular_fraction_bits,
+                         c.specular_fraction_bits, c.series(), c.rom_words(),
+                         c.channels * c.rom_data_bits));
+  report_effects(page, r);
+  page.plain("metrics");
+  for (const Metric& metric : metrics()) {
+    page.plain(fmt::format("  {:<27} {:>14} {:<6} {}", metric.name, metric_text(metric.value(r)),
+                           metric.unit, metric.meaning));
+  }
 }
 
-nlohmann::ordered_json effects_json(const Verification& v) {
-  nlohmann::ordered_json json = {{"used", v.effects.used},
-                                 {"left_out", v.effects.left_out},
-                                 {"built", built_json(v, v.hardware.datapath, v.systemc)}};
-  if (v.everything) {
-    json["everything"] = built_json(v, v.everything->datapath, v.everything->systemc);
-    json["everything"]["frame_mismatches"] = v.everything->systemc.frame_mismatches;
+ordered_json to_json(const MetricValue& value) {
+  return std::visit(
+      [](auto number) {
+        return std::isfinite(static_cast<double>(number)) ? ordered_json(number) : ordered_json();
+      },
+      value);
+}
+
+ordered_json effects_json(const VerificationResult& r) {
+  ordered_json json = {{"used", r.effects.used}, {"left_out", r.effects.left_out}};
+  for_each_block_metric(r,
+                        [&](const Metric& metric, const MetricValue& own, const MetricValue& full) {
+                          json["built"][std::string(metric.name)] = to_json(own);
+                          if (r.full_hardware)
+                            json["everything"][std::string(metric.name)] = to_json(full);
+                        });
+  json["built"]["modules"] = r.systemc.counts.modules;
+  if (r.full_hardware) {
+    json["everything"]["modules"] = r.full_hardware->systemc.counts.modules;
+    json["everything"]["frame_mismatches"] = r.full_hardware->systemc.frame_mismatches;
   }
   return json;
 }
 
-void report_accuracy(Page& page, const Accuracy& accuracy) {
-  const ErrorStatistics& e = accuracy.total;
-  page.line("accuracy", "largest error {:.2f} LSB, RMS {:.3f} LSB, PSNR {:.1f} dB", e.largest,
-            e.rms(), e.psnr_db());
-  page.line("", "off by more than ½ LSB {:.2f} %, 1 LSB {:.2f} %, 2 LSB {:.2f} %",
-            100 * e.share(e.over_half), 100 * e.share(e.over_one), 100 * e.share(e.over_two));
-  const auto part = [](const ErrorStatistics& s) {
-    return fmt::format("{:.2f} ({:.3f})", s.largest, s.rms());
-  };
-  page.line("of which", "series {}, rounding {}, ROM {}, output {}: largest (RMS) LSB",
-            part(accuracy.series), part(accuracy.rounding), part(accuracy.rom),
-            part(accuracy.output));
-}
-
-nlohmann::ordered_json statistics_json(const ErrorStatistics& s) {
-  return {{"max_lsb", s.largest}, {"rms_lsb", s.rms()}};
+ordered_json configuration_json(const VerificationResult& r) {
+  ordered_json json = {{"hardware", r.hardware.name}, {"technology", r.hardware.technology.name}};
+  for (const Setting<Hardware>& setting : hardware_settings()) {
+    auto& value = json[std::string(setting.section)][std::string(setting.key)];
+    if (setting.choices.empty()) {
+      value = setting.get(r.hardware);
+    } else {
+      value = setting.value(r.hardware);
+    }
+  }
+  json["datapath"]["channels"] = r.configuration.channels;
+  return json;
 }
 
 }  // namespace
 
-std::string report_text(const Verification& v, bool color) {
-  Page page(color);
-  page.plain(
-      fmt::format("{}: {} triangles, {} of them in view; {} set up; {} pixels shaded, {} visible",
-                  v.scene.string(), v.triangles_read, v.triangles, v.triangles_set_up, v.pixels,
-                  v.visible_pixels));
-  for (const std::string& note : v.notes) page.line("note", "{}", note);
-  page.line("hardware", "{}, configuration {}", v.hardware.name, configuration_hash(v.hardware));
-  report_hardware(page, v);
-  report_effects(page, v);
-  report_account(page, "systemc", v.systemc, v);
-  report_account(page, "rtl", v.rtl, v);
-  const std::int64_t difference = v.cycle_difference();
-  page.line("cycles", "{} for the frame; with the RTL in it {}, difference {}{}",
-            v.systemc.frame_cycles, v.rtl.frame_cycles,
-            page.verdict(v.same_cycles(), fmt::format("{}", difference)),
-            v.same_cycles() || difference != 0 ? "" : ", but pixels leave at other cycles");
-  page.line("clock", "{:.2f} ns ({}: {})", v.hardware.clock_ns(), v.hardware.technology.name,
-            v.hardware.technology.source);
-  page.line("time", "datapath {:.2f} ns a pixel, whole frame {:.2f} ns a pixel, {}",
-            v.datapath_ns(), v.frame_ns(),
-            page.verdict(v.within_budget(),
-                         fmt::format("{:.2f} ns {} the budget of {:g} ns",
-                                     std::fabs(v.options.budget_ns - v.frame_ns()),
-                                     v.within_budget() ? "under" : "OVER", v.options.budget_ns)));
-  report_accuracy(page, v.accuracy);
-  if (v.rom_error > 0.01) {
-    page.line("warning",
-              "the ROM errs by up to {:.2f} % of a full highlight; raise "
-              "rom_address_bits, or bring the shininess nearer to 1",
-              100 * v.rom_error);
-  }
-  if (v.coefficient_overflows > 0) {
-    page.line("overflow", "{}",
-              page.verdict(false, fmt::format("{} triangles have values that do not fit their "
-                                              "registers, so that their pixels may be wrong: is a "
-                                              "light too close or bright, or [depth_cue] narrow?",
-                                              v.coefficient_overflows)));
-  }
-  page.plain(page.verdict(v.passed(), v.passed() ? "PASSED" : "FAILED") + " " + v.scene.string());
+std::string report_line(const VerificationResult& r, const ReportStyle& style) {
+  Page page(style.color);
+  page.plain(fmt::format("{}, {:.2f} of {:g} ns a pixel, at most {:.2f} LSB", heading(page, r),
+                         r.frame_ns_per_pixel(), r.options.budget_ns, r.accuracy.total.largest));
+  report_warnings(page, r);
+  report_failures(page, r, style);
+  if (style.verbose) report_details(page, r);
   return page.text();
 }
 
-nlohmann::ordered_json report_json(const Verification& v) {
-  Hardware hardware = v.hardware;
-  hardware.choose_channels = false;
-  nlohmann::ordered_json configuration = {{"hardware", hardware.name},
-                                          {"technology", hardware.technology.name}};
-  for (const Setting& setting : settings(hardware)) {
-    auto& value = configuration[std::string(setting.section)][std::string(setting.key)];
-    if (setting.choices.empty()) {
-      value = setting.get();
-    } else {
-      value = setting.value();
-    }
+std::string report_text(const VerificationResult& r, const ReportStyle& style) {
+  Page page(style.color);
+  page.plain(heading(page, r));
+  if (r.systemc.agrees() && r.rtl.agrees() && r.same_cycles()) {
+    page.line("same",
+              fmt::format("model = SystemC = RTL, every pixel and every cycle ({})",
+                          grouped(static_cast<std::uint64_t>(r.systemc.counts.frame_cycles))));
   }
-  configuration["datapath"]["channels"] = hardware.datapath.channels;
-  const Accuracy& a = v.accuracy;
-  const double psnr = a.total.psnr_db();
-  return {{"scene", v.scene.string()},
-          {"configuration", configuration},
-          {"configuration_hash", configuration_hash(v.hardware)},
-          {"triangles", v.triangles},
-          {"triangles_read", v.triangles_read},
-          {"subdivision", {{"triangles", v.triangles_split}, {"pieces", v.pieces}}},
-          {"pixels", v.pixels},
-          {"effects", effects_json(v)},
-          {"mismatches",
-           {{"model_rtl", v.rtl.mismatches + v.rtl.frame_mismatches},
-            {"model_systemc", v.systemc.mismatches + v.systemc.frame_mismatches}}},
-          {"cycles",
-           {{"frame", v.systemc.frame_cycles},
-            {"datapath_rtl", v.rtl.datapath_cycles},
-            {"datapath_systemc", v.systemc.datapath_cycles},
-            {"difference", v.cycle_difference()},
-            {"setup", v.systemc.setup_cycles},
-            {"setup_per_triangle",
-             static_cast<double>(v.systemc.setup_cycles) / static_cast<double>(v.triangles_set_up)},
-            {"rom_load", v.systemc.rom_load_cycles}}},
-          {"clock_ns", v.hardware.clock_ns()},
-          {"clock_source", v.hardware.technology.source},
-          {"ns_per_pixel", {{"datapath", v.datapath_ns()}, {"frame", v.frame_ns()}}},
-          {"budget_ns", v.options.budget_ns},
-          {"within_budget", v.within_budget()},
-          {"accuracy",
-           {{"max_lsb", a.total.largest},
-            {"rms_lsb", a.total.rms()},
-            {"psnr_db", std::isfinite(psnr) ? nlohmann::ordered_json(psnr) : nullptr},
-            {"over_half", a.total.share(a.total.over_half)},
-            {"over_one", a.total.share(a.total.over_one)},
-            {"over_two", a.total.share(a.total.over_two)}}},
-          {"accuracy_split",
-           {{"series", statistics_json(a.series)},
-            {"rounding", statistics_json(a.rounding)},
-            {"rom", statistics_json(a.rom)},
-            {"output", statistics_json(a.output)}}},
-          {"coefficient_overflows", v.coefficient_overflows},
-          {"seed", v.options.seed},
-          {"passed", v.passed()}};
+  page.line("time", time_text(page, r));
+  page.line("error", error_text(r));
+  report_warnings(page, r);
+  report_failures(page, r, style);
+  std::string more = style.verbose ? "" : "--verbose";
+  for (const std::string& file : style.more) more += (more.empty() ? "" : ", ") + file;
+  if (!more.empty()) page.line("more", more);
+  if (style.verbose) report_details(page, r);
+  return page.text();
+}
+
+ordered_json report_json(const VerificationResult& r) {
+  ordered_json json = {{"scene", r.scene},
+                       {"passed", r.passed()},
+                       {"configuration", configuration_json(r)},
+                       {"configuration_hash", configuration_hash(r.hardware)},
+                       {"detail", r.options.detail == Detail::cycle ? "cycle" : "span"},
+                       {"stall_percent", r.options.stall_percent},
+                       {"seed", r.options.seed},
+                       {"budget_ns", r.options.budget_ns},
+                       {"within_budget", r.within_budget()},
+                       {"clock_source", r.hardware.technology.source},
+                       {"limited_by", limiting_block(r)},
+                       {"notes", r.notes}};
+  for (const Metric& metric : metrics()) {
+    if (metric.json.empty()) continue;
+    json[ordered_json::json_pointer(std::string(metric.json))] = to_json(metric.value(r));
+  }
+  json["effects"] = effects_json(r);
+  for (const auto& [name, found] :
+       {std::pair<const char*, const ImplementationResult&>{"systemc", r.systemc},
+        {"rtl", r.rtl}}) {
+    ordered_json& entry = json["implementations"][name];
+    entry["failure"] =
+        found.counts.failure.empty() ? ordered_json() : ordered_json(found.counts.failure);
+    entry["first_divergence"] = nlohmann::json(found.first_divergence);
+  }
+  return json;
+}
+
+std::vector<std::filesystem::path> write_pictures(const VerificationResult& r,
+                                                  const std::filesystem::path& folder,
+                                                  const std::string& name) {
+  const std::pair<const char*, const Picture&> pictures[] = {{"result", r.result_picture},
+                                                             {"exact", r.accuracy.exact_picture},
+                                                             {"error", r.accuracy.error_picture}};
+  std::vector<std::filesystem::path> files;
+  for (const auto& [what, picture] : pictures) {
+    files.push_back(folder / fmt::format("{}-{}.png", name, what));
+    write_png(files.back(), picture);
+  }
+  return files;
 }
 
 }  // namespace phongpipe

@@ -17,11 +17,13 @@ namespace phongpipe {
 namespace fs = std::filesystem;
 namespace {
 
-std::string parameters(const DatapathConfiguration& c) {
-  return fmt::format("c{}-d{}-s{}-a{}-w{}-g{}{}{}{}", c.channels, c.diffuse_fraction_bits,
-                     c.specular_fraction_bits, c.rom_address_bits, c.rom_data_bits,
-                     static_cast<int>(c.gate), c.diffuse ? "-diffuse" : "",
-                     c.specular ? "-specular" : "", c.depth_cue ? "-depth_cue" : "");
+// Names the configuration in file names and messages.
+std::string parameters(const DatapathConfiguration& configuration) {
+  std::string text;
+  for (const auto& [name, value] : rtl_parameters(configuration)) {
+    text += fmt::format("{}{}={}", text.empty() ? "" : "-", name, value);
+  }
+  return text;
 }
 
 std::vector<fs::path> rtl_sources(const fs::path& folder) {
@@ -120,50 +122,40 @@ void build(const DatapathConfiguration& c, const fs::path& sources, const fs::pa
   const std::string include = verilator_include();
   const ScratchFolder scratch(library.parent_path());
   const std::string folder = scratch.path().string();
-  std::vector<std::string> verilate = {
-      "verilator",
-      "--cc",
-      "-O3",
-      "-Wall",
-      "--Mdir",
-      folder,
-      "--prefix",
-      "Vpixel_datapath",
-      "--top-module",
-      "pixel_datapath",
-      "-I" + sources.string(),
-      fmt::format("-GCHANNELS={}", c.channels),
-      fmt::format("-GDIFFUSE={}", static_cast<int>(c.diffuse)),
-      fmt::format("-GSPECULAR={}", static_cast<int>(c.specular)),
-      fmt::format("-GDEPTH_CUE={}", static_cast<int>(c.depth_cue)),
-      fmt::format("-GDIFFUSE_FRACTION={}", c.diffuse_fraction_bits),
-      fmt::format("-GSPECULAR_FRACTION={}", c.specular_fraction_bits),
-      fmt::format("-GROM_ADDRESS_BITS={}", c.rom_address_bits),
-      fmt::format("-GROM_DATA_BITS={}", c.rom_data_bits),
-      fmt::format("-GGATE={}", static_cast<int>(c.gate))};
+  std::vector<std::string> verilate = {"verilator",
+                                       "--cc",
+                                       "-O3",
+                                       "-Wall",
+                                       "--Mdir",
+                                       folder,
+                                       "--prefix",
+                                       "Vpixel_datapath",
+                                       "--top-module",
+                                       "pixel_datapath",
+                                       "-I" + sources.string()};
+  for (const auto& [name, value] : rtl_parameters(c)) {
+    verilate.push_back(fmt::format("-G{}={}", name, value));
+  }
   for (const fs::path& file : rtl_sources(sources)) {
     if (file.extension() == ".sv") verilate.push_back(file.string());
   }
   run_or_throw(verilate);
 
-  std::vector<std::string> compile = {
-      "g++",
-      "-std=c++17",
-      "-O3",
-      "-fPIC",
-      "-shared",
-      "-fvisibility=hidden",
-      "-I" + include,
-      "-I" + include + "/vltstd",
-      "-I" + folder,
-      "-I" + installation().rtl_shim.string(),
-      fmt::format("-DPHONGPIPE_CHANNELS={}", c.channels),
-      fmt::format("-DPHONGPIPE_DIFFUSE_WIDTH={}", c.diffuse_width()),
-      fmt::format("-DPHONGPIPE_SPECULAR_WIDTH={}", c.specular_width()),
-      fmt::format("-DPHONGPIPE_ROM_DATA_BITS={}", c.rom_data_bits),
-      fmt::format("-DPHONGPIPE_CUE_WIDTH={}", kCueWidth),
-      fmt::format("-DPHONGPIPE_OUTPUT_BITS={}", kOutputBits),
-      (installation().rtl_shim / "rtl_shim.cpp").string()};
+  std::vector<std::string> compile = {"g++",
+                                      "-std=c++17",
+                                      "-O3",
+                                      "-fPIC",
+                                      "-shared",
+                                      "-fvisibility=hidden",
+                                      "-I" + include,
+                                      "-I" + include + "/vltstd",
+                                      "-I" + folder,
+                                      "-I" + installation().rtl_shim.string(),
+                                      "-I" + installation().include.string(),
+                                      (installation().rtl_shim / "rtl_shim.cpp").string()};
+  for (const auto& [name, value] : rtl_parameters(c)) {
+    compile.push_back(fmt::format("-DPHONGPIPE_{}={}", name, value));
+  }
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() == ".cpp") compile.push_back(entry.path().string());
   }

@@ -6,18 +6,21 @@
 #include <type_traits>
 
 #include "Vpixel_datapath.h"
+#include "model/fixed/constants.h"
 
 namespace {
 
+using phongpipe::kCueWidth;
+using phongpipe::kOutputBits;
+
 #ifndef PHONGPIPE_CHANNELS
-#error "PHONGPIPE_CHANNELS, _DIFFUSE_WIDTH and the others below must be defined"
+#error "each parameter of pixel_datapath must be defined as PHONGPIPE_(its name)"
 #endif
 constexpr int kChannels = PHONGPIPE_CHANNELS;
-constexpr int kDiffuseWidth = PHONGPIPE_DIFFUSE_WIDTH;
-constexpr int kSpecularWidth = PHONGPIPE_SPECULAR_WIDTH;
+constexpr int kDiffuseWidth = phongpipe::diffuse_width(PHONGPIPE_DIFFUSE_FRACTION);
+constexpr int kSpecularWidth =
+    phongpipe::specular_width(PHONGPIPE_ROM_ADDRESS_BITS, PHONGPIPE_SPECULAR_FRACTION);
 constexpr int kRomDataBits = PHONGPIPE_ROM_DATA_BITS;
-constexpr int kCueWidth = PHONGPIPE_CUE_WIDTH;
-constexpr int kOutputBits = PHONGPIPE_OUTPUT_BITS;
 
 // The low `width` bits of each value side by side, the first in the low bits, into a port of
 // whatever type Verilator chose for it.

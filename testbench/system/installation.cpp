@@ -20,7 +20,7 @@ const Installation& installation() {
                       "cmake --install lays them out",
                       shared.string()));
     }
-    return Installation{shared / "hw", shared / "rtl", shared / "scenes",
+    return Installation{shared / "hw", shared / "rtl", shared / "include", shared / "scenes",
                         prefix / "lib" / "phongpipe"};
   }();
   return found;

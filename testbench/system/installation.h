@@ -11,6 +11,7 @@ namespace phongpipe {
 struct Installation {
   std::filesystem::path hardware;  // RTL, presets/, technology/
   std::filesystem::path rtl_shim;  // sources compiled with the Verilated RTL
+  std::filesystem::path include;   // what they include of model/
   std::filesystem::path scenes;
   std::filesystem::path libraries;  // Verilator's runtime, and RTL that was built beforehand
 };

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "model/scene/scene.h"
+#include "model/shading/fields.h"
 #include "model/shading/quadratics/series_fit.h"
 #include "model/shading/quadratics/truncated_series.h"
 
@@ -19,7 +20,18 @@ struct ReflectionForm {
   bool attenuated = false;   // by distance; point_light only
   bool spot_factor = false;  // point_light only
   SeriesWanted wanted;
+
+  static constexpr auto fields() {
+    using F = ReflectionForm;
+    return std::make_tuple(field("fit", &F::fit), field("point_light", &F::point_light),
+                           field("local_viewer", &F::local_viewer),
+                           field("highlight", &F::highlight), field("attenuated", &F::attenuated),
+                           field("spot_factor", &F::spot_factor), field("wanted", &F::wanted));
+  }
 };
+inline bool operator==(const ReflectionForm& a, const ReflectionForm& b) {
+  return equal_fields(a, b);
+}
 
 // What is the same for all triangles. A = 1/(c + l d + q d²) · max(0, −L·S)^e, as a multiple of a
 // reference, positive, that the caller has multiplied c, l and q by and multiplies light and

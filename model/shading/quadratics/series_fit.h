@@ -23,6 +23,9 @@ struct Reflected {
 struct SeriesWanted {
   bool light = true, highlight = true;
 };
+inline bool operator==(const SeriesWanted& a, const SeriesWanted& b) {
+  return a.light == b.light && a.highlight == b.highlight;
+}
 
 // By the enumeration's order.
 inline std::vector<std::string_view> series_fit_names() {

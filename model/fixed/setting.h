@@ -1,0 +1,100 @@
+// One setting of the hardware. Its description is the only place that lists it: files, --set,
+// --help, range checks, hashes, reports and the RTL's parameters are made from it.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "model/scene/input_error.h"
+
+namespace phongpipe {
+
+// Of a `Record` that holds the setting's value, a number or the place of a choice in its list.
+template <typename Record>
+struct Setting {
+  std::string_view section, key;  // key = … under [section] of a hardware file
+  std::string_view unit;          // "bits", "cycles", …; empty for a choice
+  std::string_view meaning;
+  int low = 0, high = 0;                  // the legal values, inclusive
+  std::vector<std::string_view> choices;  // names of the values from 0; empty for a number
+  std::string_view rtl_parameter;         // of pixel_datapath.sv; empty where it has none
+  std::function<int(const Record&)> get;
+  std::function<void(Record&, int)> put;
+
+  std::string name() const { return fmt::format("{}.{}", section, key); }
+  // As files and --set write it.
+  std::string value(const Record& record) const { return text(get(record)); }
+  std::string text(int value) const {
+    return choices.empty() ? fmt::format("{}", value)
+                           : std::string(choices[static_cast<std::size_t>(value)]);
+  }
+  // Throws InputError naming key, value and legal range.
+  void check(const Record& record) const {
+    const int value = get(record);
+    if (value >= low && value <= high) return;
+    throw InputError(
+        fmt::format("{} = {} is out of range: {} to {} {}", name(), value, low, high, unit));
+  }
+  // The same setting of a record that has `part` as a member.
+  template <typename Whole>
+  Setting<Whole> of(Record Whole::*part) const {
+    return {section,
+            key,
+            unit,
+            meaning,
+            low,
+            high,
+            choices,
+            rtl_parameter,
+            [get = get, part](const Whole& whole) { return get(whole.*part); },
+            [put = put, part](Whole& whole, int value) { put(whole.*part, value); }};
+  }
+};
+
+template <typename Record>
+using Settings = std::vector<Setting<Record>>;
+
+template <typename Record>
+void check_settings(const Settings<Record>& settings, const Record& record) {
+  for (const Setting<Record>& setting : settings) setting.check(record);
+}
+
+// A whole number from `low` to `high`.
+template <typename Record>
+Setting<Record> number_setting(std::string_view section, std::string_view key, int Record::*member,
+                               std::string_view unit, int low, int high, std::string_view meaning,
+                               std::string_view rtl_parameter = {}) {
+  return {section,
+          key,
+          unit,
+          meaning,
+          low,
+          high,
+          {},
+          rtl_parameter,
+          [member](const Record& record) { return record.*member; },
+          [member](Record& record, int value) { record.*member = value; }};
+}
+
+// One of `choices`, which name the enumerators in their order.
+template <typename Record, typename Enum>
+Setting<Record> choice_setting(std::string_view section, std::string_view key, Enum Record::*member,
+                               std::vector<std::string_view> choices, std::string_view meaning) {
+  const int last = static_cast<int>(choices.size()) - 1;
+  return {section,
+          key,
+          {},
+          meaning,
+          0,
+          last,
+          std::move(choices),
+          {},
+          [member](const Record& record) { return static_cast<int>(record.*member); },
+          [member](Record& record, int value) { record.*member = static_cast<Enum>(value); }};
+}
+
+}  // namespace phongpipe

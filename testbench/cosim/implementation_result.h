@@ -1,0 +1,65 @@
+// What is found out about one implementation of the pipeline, SystemC or RTL, by simulating it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "sim/pipeline.h"
+
+namespace phongpipe {
+
+// The first pixel at which an implementation leaves the model.
+struct Divergence {
+  std::uint64_t stream_index = 0;  // of the pixel among all shaded pixels
+  std::uint32_t triangle = 0;      // of the scene, also where it was split
+  std::int64_t cycle = 0;
+  ShadedPixel model, found;
+  bool missing = false;  // the implementation ended before this pixel
+
+  static constexpr auto fields() {
+    using D = Divergence;
+    return std::make_tuple(field("stream_index", &D::stream_index), field("triangle", &D::triangle),
+                           field("cycle", &D::cycle), field("model", &D::model),
+                           field("found", &D::found), field("missing", &D::missing));
+  }
+};
+
+// Hashes that are the same where two streams, two frames or the cycles of all pixels are.
+struct Fingerprint {
+  std::uint64_t pixels = 0;  // shaded
+  std::uint64_t stream_hash = 0;
+  std::uint64_t frame_hash = 0;
+  std::uint64_t cycles_hash = 0;
+
+  static constexpr auto fields() {
+    using F = Fingerprint;
+    return std::make_tuple(field("pixels", &F::pixels), field("stream_hash", &F::stream_hash),
+                           field("frame_hash", &F::frame_hash),
+                           field("cycles_hash", &F::cycles_hash));
+  }
+};
+
+// Result of simulating one implementation in a child process.
+struct ImplementationResult {
+  SimulationCounts counts;
+  Fingerprint fingerprint;
+  double processor_seconds = 0;  // to simulate
+  // Against the model: pixels of the stream and of the final frame that differ.
+  std::uint64_t stream_mismatches = 0, frame_mismatches = 0;
+  std::optional<Divergence> first_divergence;
+
+  static constexpr auto fields() {
+    using R = ImplementationResult;
+    return std::make_tuple(field("counts", &R::counts), field("fingerprint", &R::fingerprint),
+                           field("processor_seconds", &R::processor_seconds),
+                           field("stream_mismatches", &R::stream_mismatches),
+                           field("frame_mismatches", &R::frame_mismatches),
+                           field("first_divergence", &R::first_divergence));
+  }
+
+  bool agrees() const {
+    return stream_mismatches == 0 && frame_mismatches == 0 && counts.failure.empty();
+  }
+};
+
+}  // namespace phongpipe

@@ -1,0 +1,177 @@
+#include "testbench/cosim/metrics.h"
+
+#include <fmt/format.h>
+
+namespace phongpipe {
+namespace {
+
+using Result = VerificationResult;
+using Better = Metric::Better;
+
+template <typename Integer>
+MetricValue count(Integer value) {
+  return static_cast<std::int64_t>(value);
+}
+
+std::int64_t sum(const OperationCounts& counts) {
+  std::size_t operations = 0;
+  for_each_field(counts, [&](std::string_view, std::size_t count) { operations += count; });
+  return static_cast<std::int64_t>(operations);
+}
+
+std::int64_t sum(const SimulationCounts& counts) {
+  std::uint64_t operations = counts.depth_additions;
+  for_each_field(counts.pixel_operations,
+                 [&](std::string_view, std::uint64_t count) { operations += count; });
+  return static_cast<std::int64_t>(operations);
+}
+
+double per_triangle(const Result& r, std::int64_t cycles) {
+  return r.set_up.set_up == 0 ? 0
+                              : static_cast<double>(cycles) / static_cast<double>(r.set_up.set_up);
+}
+
+std::vector<Metric> all_metrics() {
+  constexpr auto kLess = Better::less, kMore = Better::more, kNeither = Better::neither;
+  return {
+      {"triangles_read", "/triangles_read", "", kNeither, "triangles of the meshes",
+       [](const Result& r) { return count(r.triangles_read); }},
+      {"triangles", "/triangles", "", kNeither, "of them left after clipping and culling",
+       [](const Result& r) { return count(r.triangles); }},
+      {"triangles_split", "/subdivision/triangles", "", kNeither,
+       "of them that turn too sharply for one series, and are split",
+       [](const Result& r) { return count(r.triangles_split); }},
+      {"pieces", "/subdivision/pieces", "", kNeither, "triangles that these became",
+       [](const Result& r) { return count(r.pieces); }},
+      {"triangles_set_up", "/triangles_set_up", "", kNeither,
+       "that cover a pixel, pieces for those split, once for each light",
+       [](const Result& r) { return count(r.set_up.set_up); }},
+      {"triangles_left_out", "/triangles_left_out", "", kNeither,
+       "of them, found to add nothing to their pixels",
+       [](const Result& r) { return count(r.set_up.left_out); }},
+      {"pixels", "/pixels", "", kNeither, "pixels shaded, hidden ones and all lights included",
+       [](const Result& r) { return count(r.pixels); }},
+      {"visible_pixels", "/visible_pixels", "", kNeither, "pixels of the image that are covered",
+       [](const Result& r) { return count(r.accuracy.visible_pixels); }},
+
+      {"rtl_mismatches", "/mismatches/model_rtl", "", kLess,
+       "pixels shaded by the RTL that are not the model's",
+       [](const Result& r) { return count(r.rtl.stream_mismatches); }},
+      {"systemc_mismatches", "/mismatches/model_systemc", "", kLess,
+       "pixels shaded in SystemC that are not the model's",
+       [](const Result& r) { return count(r.systemc.stream_mismatches); }},
+      {"rtl_frame_mismatches", "/mismatches/frame_rtl", "", kLess,
+       "pixels of the final frame with the RTL that are not the model's",
+       [](const Result& r) { return count(r.rtl.frame_mismatches); }},
+      {"systemc_frame_mismatches", "/mismatches/frame_systemc", "", kLess,
+       "pixels of the final frame in SystemC that are not the model's",
+       [](const Result& r) { return count(r.systemc.frame_mismatches); }},
+      {"coefficient_overflows", "/coefficient_overflows", "", kLess,
+       "triangles with values that do not fit their registers",
+       [](const Result& r) { return count(r.set_up.overflows); }},
+
+      {"frame_cycles", "/cycles/frame", "cycles", kLess, "of the whole frame",
+       [](const Result& r) { return count(r.systemc.counts.frame_cycles); }, true},
+      {"cycle_difference", "/cycles/difference", "cycles", kLess,
+       "that the frame takes more with the RTL than in SystemC",
+       [](const Result& r) { return count(r.cycle_difference()); }},
+      {"datapath_cycles_rtl", "/cycles/datapath_rtl", "cycles", kLess,
+       "until the RTL has delivered the last pixel",
+       [](const Result& r) { return count(r.rtl.counts.datapath_cycles); }},
+      {"datapath_cycles_systemc", "/cycles/datapath_systemc", "cycles", kLess,
+       "until SystemC's pixel_datapath has delivered the last pixel",
+       [](const Result& r) { return count(r.systemc.counts.datapath_cycles); }},
+      {"setup_cycles", "/cycles/setup", "cycles", kLess, "in which the setup engine was at work",
+       [](const Result& r) { return count(r.systemc.counts.setup_cycles); }},
+      {"setup_cycles_per_triangle", "/cycles/setup_per_triangle", "cycles", kLess,
+       "of the setup engine for a triangle, on average",
+       [](const Result& r) -> MetricValue {
+         return per_triangle(r, r.systemc.counts.setup_cycles);
+       }},
+      {"rom_load_cycles", "/cycles/rom_load", "cycles", kLess,
+       "in which tables of highlights were loaded",
+       [](const Result& r) { return count(r.systemc.counts.rom_load_cycles); }},
+      {"clock_ns", "/clock_ns", "ns", kLess, "clock period of the technology",
+       [](const Result& r) -> MetricValue { return r.clock_ns; }, true},
+      {"datapath_ns_per_pixel", "/ns_per_pixel/datapath", "ns", kLess,
+       "time in which the RTL's datapath was occupied, over the pixels shaded",
+       [](const Result& r) -> MetricValue { return r.datapath_ns_per_pixel(); }},
+      {"frame_ns_per_pixel", "/ns_per_pixel/frame", "ns", kLess,
+       "time of the whole frame, over the pixels shaded",
+       [](const Result& r) -> MetricValue { return r.frame_ns_per_pixel(); }},
+
+      {"max_lsb", "/accuracy/max_lsb", "LSB", kLess, "largest error against exact Phong shading",
+       [](const Result& r) -> MetricValue { return r.accuracy.total.largest; }},
+      {"rms_lsb", "/accuracy/rms_lsb", "LSB", kLess, "root of the mean squared error",
+       [](const Result& r) -> MetricValue { return r.accuracy.total.rms(); }},
+      {"psnr_db", "/accuracy/psnr_db", "dB", kMore,
+       "peak signal to noise ratio; none without error",
+       [](const Result& r) -> MetricValue { return r.accuracy.total.psnr_db(); }},
+      {"over_half", "/accuracy/over_half", "", kLess, "share of pixels off by more than ½ LSB",
+       [](const Result& r) -> MetricValue {
+         return r.accuracy.total.share(r.accuracy.total.over_half);
+       }},
+      {"over_one", "/accuracy/over_one", "", kLess, "share of pixels off by more than 1 LSB",
+       [](const Result& r) -> MetricValue {
+         return r.accuracy.total.share(r.accuracy.total.over_one);
+       }},
+      {"over_two", "/accuracy/over_two", "", kLess, "share of pixels off by more than 2 LSB",
+       [](const Result& r) -> MetricValue {
+         return r.accuracy.total.share(r.accuracy.total.over_two);
+       }},
+      {"series_max_lsb", "/accuracy_split/series/max_lsb", "LSB", kLess,
+       "largest error by the second-degree series for the exact reflection",
+       [](const Result& r) -> MetricValue { return r.accuracy.series.largest; }},
+      {"series_rms_lsb", "/accuracy_split/series/rms_lsb", "LSB", kLess, "root of its mean square",
+       [](const Result& r) -> MetricValue { return r.accuracy.series.rms(); }},
+      {"rounding_max_lsb", "/accuracy_split/rounding/max_lsb", "LSB", kLess,
+       "largest error by rounded coefficients and starts of spans",
+       [](const Result& r) -> MetricValue { return r.accuracy.rounding.largest; }},
+      {"rounding_rms_lsb", "/accuracy_split/rounding/rms_lsb", "LSB", kLess,
+       "root of its mean square",
+       [](const Result& r) -> MetricValue { return r.accuracy.rounding.rms(); }},
+      {"rom_max_lsb", "/accuracy_split/rom/max_lsb", "LSB", kLess,
+       "largest error by index and word of the exponent ROM",
+       [](const Result& r) -> MetricValue { return r.accuracy.rom.largest; }},
+      {"rom_rms_lsb", "/accuracy_split/rom/rms_lsb", "LSB", kLess, "root of its mean square",
+       [](const Result& r) -> MetricValue { return r.accuracy.rom.rms(); }},
+      {"output_max_lsb", "/accuracy_split/output/max_lsb", "LSB", kLess,
+       "largest error by rounding to 8 bits",
+       [](const Result& r) -> MetricValue { return r.accuracy.output.largest; }},
+      {"output_rms_lsb", "/accuracy_split/output/rms_lsb", "LSB", kLess, "root of its mean square",
+       [](const Result& r) -> MetricValue { return r.accuracy.output.rms(); }},
+
+      {"adders", "", "", kLess, "of the datapath",
+       [](const Result& r) { return count(r.configuration.adders()); }, true},
+      {"multipliers", "", "", kLess, "of the datapath",
+       [](const Result& r) { return count(r.configuration.multipliers()); }, true},
+      {"register_bits", "", "bits", kLess, "of the datapath's series",
+       [](const Result& r) { return count(r.configuration.register_bits()); }, true},
+      {"rom_bits", "", "bits", kLess, "of the exponent ROM, all channels",
+       [](const Result& r) { return count(r.configuration.rom_bits()); }, true},
+      {"setup_operations", "", "", kLess,
+       "additions, multiplications, 1/√ and powers of the setup engine",
+       [](const Result& r) { return count(sum(r.systemc.counts.setup_operations)); }, true},
+      {"pixel_operations", "", "", kLess, "additions, multiplications and ROM reads of all pixels",
+       [](const Result& r) { return count(sum(r.systemc.counts)); }, true},
+      {"simulation_seconds", "", "s", kLess, "processor time that SystemC took here",
+       [](const Result& r) -> MetricValue { return r.systemc.processor_seconds; }, true},
+  };
+}
+
+}  // namespace
+
+const std::vector<Metric>& metrics() {
+  static const std::vector<Metric> all = all_metrics();
+  return all;
+}
+
+std::string metric_text(const MetricValue& value) {
+  if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.4g}", *number);
+  std::string digits = fmt::format("{}", std::get<std::int64_t>(value));
+  const std::size_t first = digits.front() == '-' ? 1 : 0;
+  for (std::size_t at = digits.size(); at > first + 3; at -= 3) digits.insert(at - 3, ",");
+  return digits;
+}
+
+}  // namespace phongpipe

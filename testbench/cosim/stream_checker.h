@@ -1,0 +1,61 @@
+// Compares the pixels of an implementation with the model's: by hashes while all is well, pixel by
+// pixel where they differ. Neither keeps the stream, which may be far larger than the image.
+#pragma once
+
+#include "model/fixed/model_frame.h"
+#include "testbench/cosim/implementation_result.h"
+#include "testbench/system/fnv_hash.h"
+
+namespace phongpipe {
+
+// Hashes a stream of pixels as it comes.
+class StreamHash {
+ public:
+  void add(const ShadedPixel& pixel) {
+    stream_.add(std::uint64_t{pixel.color} << 32 | std::uint64_t{pixel.y} << 16 | pixel.x);
+    ++pixels_;
+  }
+  void add(const ShadedPixel* pixels, const std::int64_t* cycles, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      add(pixels[i]);
+      cycles_.add(static_cast<std::uint64_t>(cycles[i]));
+    }
+  }
+  // With the hash of the frame at the end, as an image of three channels.
+  Fingerprint fingerprint(const Framebuffer& framebuffer, int channels) const;
+
+ private:
+  FnvHash stream_, cycles_;
+  std::uint64_t pixels_ = 0;
+};
+
+// Pixels of the final frames that differ; a grey frame is compared with all channels of one in
+// colour.
+std::uint64_t count_frame_mismatches(const Framebuffer& model, int model_channels,
+                                     const Framebuffer& found, int channels);
+
+// Runs the model beside a stream and finds where they part.
+class StreamChecker {
+ public:
+  explicit StreamChecker(const FrameSetup& frame) : model_(frame) {}
+
+  void observe(const ShadedPixel& pixel, std::int64_t cycle);
+  // After the last pixel: whatever the model still has is missing. `cycle`: in which it ended.
+  void finish(std::int64_t cycle);
+
+  std::uint64_t mismatches() const { return mismatches_; }
+  const std::optional<Divergence>& first() const { return first_; }
+
+ private:
+  // The model's next pixel; false where it has no more.
+  bool next(ShadedPixel& pixel);
+  void record(const ShadedPixel& model, const ShadedPixel& found, std::int64_t cycle, bool missing);
+
+  SpanStream model_;
+  int next_in_span_ = 0, span_length_ = 0;
+  std::uint64_t stream_index_ = 0;
+  std::uint64_t mismatches_ = 0;
+  std::optional<Divergence> first_;
+};
+
+}  // namespace phongpipe
