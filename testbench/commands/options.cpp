@@ -1,10 +1,6 @@
 #include "testbench/commands/options.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdio>
-#include <cstdlib>
 
 #include "testbench/hardware/hardware.h"
 #include "testbench/system/installation.h"
@@ -52,27 +48,6 @@ void HardwareOptions::add_to(CLI::App& command) {
       ->allow_extra_args(false);
   command.footer(command.get_footer() +
                  "\nSettings for --set and hardware files, with defaults:\n" + list_settings());
-}
-
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
-Progress::~Progress() {
-  clear();
-}
-
-void Progress::operator()(const std::string& what) {
-  if (!terminal_) return;
-  std::fprintf(stderr, "\r\033[K%s …", what.c_str());
-  std::fflush(stderr);
-  shown_ = true;
-}
-
-void Progress::clear() {
-  if (shown_) std::fputs("\r\033[K", stderr);
-  shown_ = false;
-}
-
-bool color_wanted() {
-  return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
 }
 
 }  // namespace phongpipe
