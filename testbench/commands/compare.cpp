@@ -5,10 +5,10 @@
 
 #include "model/scene/input_error.h"
 #include "testbench/commands/options.h"
-#include "testbench/drawing/pictures.h"
 #include "testbench/methods/curves.h"
 #include "testbench/methods/operation_time.h"
 #include "testbench/reports/comparison_report.h"
+#include "testbench/system/output_file.h"
 
 namespace phongpipe {
 namespace {

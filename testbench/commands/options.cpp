@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
-
-#include <cstdio>
-#include <cstdlib>
 
 #include "model/files/scene_file.h"
 #include "model/files/text_file.h"
@@ -72,27 +68,6 @@ void HardwareOptions::add_to(CLI::App& command) {
       ->allow_extra_args(false);
   command.add_flag("--help-settings",
                    "Explain all settings of the hardware, with units and ranges, and exit");
-}
-
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
-Progress::~Progress() {
-  clear();
-}
-
-void Progress::operator()(const std::string& what) {
-  if (!terminal_) return;
-  std::fprintf(stderr, "\r\033[K%s …", what.c_str());
-  std::fflush(stderr);
-  shown_ = true;
-}
-
-void Progress::clear() {
-  if (shown_) std::fputs("\r\033[K", stderr);
-  shown_ = false;
-}
-
-bool color_wanted() {
-  return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
 }
 
 }  // namespace phongpipe

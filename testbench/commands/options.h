@@ -14,6 +14,7 @@
 
 #include "model/scene/scene.h"
 #include "model/shading/methods/power.h"
+#include "testbench/system/terminal.h"
 
 namespace phongpipe {
 
@@ -65,23 +66,5 @@ CLI::Validator positive_number();
 
 // --power: how the power of highlights is computed by the methods in real arithmetic.
 void add_power_option(CLI::App& command, std::optional<PowerKind>& power);
-
-// Shows what is being done while it is, on a terminal; silent in a pipe.
-class Progress {
- public:
-  Progress();
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  void operator()(const std::string& what);
-  void clear();
-
- private:
-  bool terminal_;
-  bool shown_ = false;
-};
-
-bool color_wanted();  // standard output is a terminal, and NO_COLOR is not set
 
 }  // namespace phongpipe

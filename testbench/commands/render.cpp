@@ -15,6 +15,7 @@
 #include "testbench/drawing/pictures.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/methods/real_frame.h"
+#include "testbench/system/output_file.h"
 
 namespace phongpipe {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "model/scene/input_error.h"
 #include "testbench/commands/options.h"
-#include "testbench/drawing/pictures.h"
 #include "testbench/reports/verification_report.h"
+#include "testbench/system/output_file.h"
 
 namespace phongpipe {
 namespace {

@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 
-#include "model/scene/input_error.h"
+#include "testbench/system/output_file.h"
 
 namespace phongpipe {
 namespace {
@@ -84,20 +83,6 @@ Rgb error_color(double error) {
         std::lround(kStops[stop][c] * (1 - weight) + kStops[stop + 1][c] * weight));
   }
   return color;
-}
-
-void write_text(const std::filesystem::path& file, const std::string& text) {
-  std::filesystem::path partial = file;
-  partial += ".partial";
-  std::ofstream out(partial, std::ios::binary);
-  out << text << std::flush;
-  std::error_code error;
-  if (out) std::filesystem::rename(partial, file, error);
-  if (!out || error) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw InputError(fmt::format("{}: cannot be written", file.string()));
-  }
 }
 
 void write_png(const std::filesystem::path& file, const Picture& picture) {

@@ -1,5 +1,4 @@
-// Pictures of a frame, as files. Each is written under another name first and then renamed, so that
-// none is left half written.
+// Pictures of a frame, as files.
 #pragma once
 
 #include <array>
@@ -39,11 +38,10 @@ constexpr double kErrorMapTop = 4;
 constexpr Rgb kUncoveredColor = {12, 40, 24};
 Rgb error_color(double error);
 
-// Throw InputError where the file cannot be written.
+// Written as write_text() does.
 void write_png(const std::filesystem::path& file, const Picture& picture);
 // Float RGB, bottom row first, little-endian.
 void write_pfm(const std::filesystem::path& file, const std::vector<Color>& colors, int width,
                int height);
-void write_text(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace phongpipe

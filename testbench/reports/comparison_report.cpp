@@ -10,6 +10,7 @@
 #include "testbench/drawing/pictures.h"
 #include "testbench/methods/curves.h"
 #include "testbench/methods/operation_time.h"
+#include "testbench/system/output_file.h"
 
 namespace phongpipe {
 namespace {

@@ -18,7 +18,8 @@ struct RtlBuildOptions {
   std::function<void(const std::string&)> progress;  // told what is being built, if anything is
 };
 
-// Loads, after building if need be. Throws InputError with the reason where neither works.
+// Loads, after building if need be. Throws InputError where there are no sources, ToolError where
+// they cannot be built or the library cannot be loaded.
 class RtlLibrary {
  public:
   RtlLibrary(const DatapathConfiguration& configuration, const RtlBuildOptions& options);

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace phongpipe {
 
 class FnvHash {
  public:
   void add(std::uint64_t word) { hash_ = (hash_ ^ word) * 1099511628211U; }
+  void add(std::string_view bytes) {
+    for (const char byte : bytes) add(std::uint64_t{static_cast<std::uint8_t>(byte)});
+  }
   std::uint64_t value() const { return hash_; }
 
  private:

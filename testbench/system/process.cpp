@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,9 +10,12 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
-#include <stdexcept>
-#include <system_error>
+#include <new>
+
+#include "model/scene/input_error.h"
+#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace {
@@ -22,15 +26,28 @@ struct Pipe {
 
 Pipe make_pipe() {
   std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category());
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+    throw ToolError(fmt::format("no pipe to a new process: {}", std::strerror(errno)));
+  }
   return {ends[0], ends[1]};
 }
 
 pid_t fork_or_throw() {
-  std::fflush(nullptr);  // or the child would print it again
+  std::signal(SIGCHLD, SIG_DFL);  // where it is ignored, there is no exit status
+  std::fflush(nullptr);           // or the child would print it again
   const pid_t process = fork();
-  if (process < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  if (process < 0) {
+    throw ToolError(
+        fmt::format("no new process could be started, memory or processes are short: {}",
+                    std::strerror(errno)));
+  }
   return process;
+}
+
+// In a child: `signal` comes when the parent ends, or we end now if it has ended already.
+void end_with_parent(pid_t parent, int signal) {
+  prctl(PR_SET_PDEATHSIG, signal);
+  if (getppid() != parent) _exit(1);
 }
 
 std::string read_to_end(int file) {
@@ -66,43 +83,122 @@ int wait_for(pid_t process) {
   return status;
 }
 
-constexpr char kResult = 'r', kException = 'e';
+int exit_status(int wait_status) {
+  return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128;
+}
+
+// What a program is started with; made before the fork, after which nothing may be allocated.
+struct Start {
+  std::vector<char*> arguments;
+  int folder = -1;  // -1: the current one
+  int input, output;
+  int failure;  // takes errno where the program cannot be started
+};
+
+[[noreturn]] void become_program(const Start& start) {
+  dup2(start.input, STDIN_FILENO);
+  dup2(start.output, STDOUT_FILENO);
+  dup2(start.output, STDERR_FILENO);
+  if (start.folder < 0 || fchdir(start.folder) == 0) {
+    execvp(start.arguments.front(), start.arguments.data());
+  }
+  const int error = errno;
+  [[maybe_unused]] const ssize_t ignored = write(start.failure, &error, sizeof error);
+  _exit(127);
+}
+
+// Between us and the program, which gets a process group of its own: when we end, or on Ctrl-C, the
+// whole group is killed. Nothing else would reach what the program has started.
+[[noreturn]] void supervise(const Start& start, pid_t parent) {
+  sigset_t awaited, before;
+  sigemptyset(&awaited);
+  for (const int signal : {SIGCHLD, SIGHUP, SIGINT, SIGQUIT, SIGTERM}) sigaddset(&awaited, signal);
+  sigprocmask(SIG_BLOCK, &awaited, &before);
+  end_with_parent(parent, SIGTERM);
+  const pid_t supervisor = getpid();
+  const pid_t program = fork();
+  if (program == 0) {
+    setpgid(0, 0);
+    end_with_parent(supervisor, SIGKILL);
+    sigprocmask(SIG_SETMASK, &before, nullptr);
+    become_program(start);
+  }
+  if (program < 0) {
+    const int error = errno;
+    [[maybe_unused]] const ssize_t ignored = write(start.failure, &error, sizeof error);
+    _exit(127);
+  }
+  setpgid(program, program);  // here as well: whoever comes first
+  close(start.output);
+  for (;;) {
+    int signal = 0, status = 0;
+    sigwait(&awaited, &signal);
+    if (signal != SIGCHLD) {
+      kill(-program, SIGKILL);
+      _exit(128 + signal);
+    }
+    if (waitpid(program, &status, WNOHANG) == program) _exit(exit_status(status));
+  }
+}
+
+int open_or_throw(const char* path, int flags) {
+  const int file = open(path, flags | O_CLOEXEC);
+  if (file < 0) throw ToolError(fmt::format("{}: {}", path, std::strerror(errno)));
+  return file;
+}
+
+// First byte of what a child hands back.
+constexpr char kResult = 'r', kInputError = 'i', kToolError = 't', kNoMemory = 'm', kOther = 'e';
+
+std::string result_of(const std::function<std::string()>& work) {
+  try {
+    return kResult + work();
+  } catch (const InputError& error) {
+    return kInputError + std::string(error.what());
+  } catch (const ToolError& error) {
+    return kToolError + std::string(error.what());
+  } catch (const std::bad_alloc&) {
+    return {kNoMemory};
+  } catch (const std::exception& error) {
+    return kOther + std::string(error.what());
+  }
+}
 
 }  // namespace
 
-ProcessOutput run_process(const std::vector<std::string>& command) {
-  std::vector<char*> arguments;
-  arguments.reserve(command.size() + 1);
-  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
-  arguments.push_back(nullptr);
-  const Pipe output = make_pipe();
-  const pid_t process = fork_or_throw();
-  if (process == 0) {
-    dup2(output.write_end, STDOUT_FILENO);
-    dup2(output.write_end, STDERR_FILENO);
-    execvp(arguments.front(), arguments.data());
-    _exit(127);
+ProcessOutput run_process(const std::vector<std::string>& command,
+                          const std::filesystem::path& folder) {
+  Start start{};
+  start.arguments.reserve(command.size() + 1);
+  for (const std::string& word : command) {
+    start.arguments.push_back(const_cast<char*>(word.c_str()));
   }
-  close(output.write_end);
+  start.arguments.push_back(nullptr);
+  const Pipe output = make_pipe(), failure = make_pipe();
+  start.input = open_or_throw("/dev/null", O_RDONLY);
+  start.folder = folder.empty() ? -1 : open_or_throw(folder.c_str(), O_PATH | O_DIRECTORY);
+  start.output = output.write_end;
+  start.failure = failure.write_end;
+  const pid_t parent = getpid();
+  const pid_t supervisor = fork_or_throw();
+  if (supervisor == 0) supervise(start, parent);
+  for (const int file : {start.input, start.folder, start.output, start.failure}) close(file);
   ProcessOutput result;
   result.text = read_to_end(output.read_end);
-  const int status = wait_for(process);
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  const std::string error = read_to_end(failure.read_end);
+  result.status = exit_status(wait_for(supervisor));
+  if (!error.empty()) std::memcpy(&result.start_error, error.data(), sizeof result.start_error);
   return result;
 }
 
 Child::Child(const std::function<std::string()>& work) {
   const Pipe result = make_pipe();
+  const pid_t parent = getpid();
   process_ = fork_or_throw();
   if (process_ == 0) {
+    end_with_parent(parent, SIGKILL);
     close(result.read_end);
-    std::string text;
-    try {
-      text = kResult + work();
-    } catch (const std::exception& error) {
-      text = kException + std::string(error.what());
-    }
-    write_all(result.write_end, text);
+    write_all(result.write_end, result_of(work));
     std::fflush(nullptr);
     _exit(0);  // the parent's destructors and exit handlers are the parent's
   }
@@ -121,14 +217,25 @@ std::string Child::get() {
   const std::string text = read_to_end(pipe_);
   const int status = wait_for(process_);
   process_ = -1;
-  if (text.empty()) {
-    throw std::runtime_error(fmt::format("a child process ended without a result ({})",
-                                         WIFSIGNALED(status)
-                                             ? fmt::format("signal {}", WTERMSIG(status))
-                                             : fmt::format("status {}", WEXITSTATUS(status))));
+  if (status != 0 || text.empty()) {
+    throw ToolError(fmt::format("a child process ended without a result ({})",
+                                WIFSIGNALED(status)
+                                    ? fmt::format("signal {}", WTERMSIG(status))
+                                    : fmt::format("status {}", WEXITSTATUS(status))));
   }
-  if (text.front() == kException) throw std::runtime_error(text.substr(1));
-  return text.substr(1);
+  const std::string rest = text.substr(1);
+  switch (text.front()) {
+    case kInputError:
+      throw InputError(rest);
+    case kToolError:
+      throw ToolError(rest);
+    case kNoMemory:
+      throw std::bad_alloc();
+    case kOther:
+      throw std::runtime_error(rest);
+    default:
+      return rest;
+  }
 }
 
 }  // namespace phongpipe

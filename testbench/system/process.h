@@ -1,6 +1,8 @@
-// Other processes: programs that are run for their output, and our own work done in a child.
+// Other processes: programs that are run for their output, and our own work done in a child. None
+// of them outlives the thread that started it, however that ends.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -8,14 +10,19 @@
 namespace phongpipe {
 
 struct ProcessOutput {
-  int status = -1;   // 0 is success; 127 where there is no such program
-  std::string text;  // standard output and standard error
+  int status = -1;      // 0 is success; 127 where the program could not be started
+  std::string text;     // standard output and standard error
+  int start_error = 0;  // errno where the program could not be started
 };
 
-ProcessOutput run_process(const std::vector<std::string>& command);
+// Runs the program in `folder`, or in the current one, without an input. When we end, it ends, with
+// all that it has started.
+ProcessOutput run_process(const std::vector<std::string>& command,
+                          const std::filesystem::path& folder = {});
 
 // Runs `work` in a child process, at the same time as the caller goes on, and hands back the text
-// it returns. An exception in the child becomes a std::runtime_error in get().
+// it returns. An InputError, ToolError or std::bad_alloc of the child is thrown again by get(), any
+// other exception as a std::runtime_error.
 class Child {
  public:
   explicit Child(const std::function<std::string()>& work);

@@ -8,8 +8,8 @@
 #include "model/files/scene_file.h"
 #include "model/files/text_file.h"
 #include "model/fixed/model_frame.h"
-#include "testbench/drawing/pictures.h"
 #include "testbench/reports/verification_report.h"
+#include "testbench/system/output_file.h"
 
 namespace phongpipe {
 namespace {

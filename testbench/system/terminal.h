@@ -1,0 +1,31 @@
+// What people see on a terminal: progress, colours, and text from outside made harmless.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace phongpipe {
+
+// Shows what is being done while it is, on a terminal; silent in a pipe.
+class Progress {
+ public:
+  Progress();
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void operator()(const std::string& what);
+  void clear();
+
+ private:
+  bool terminal_;
+  bool shown_ = false;
+};
+
+bool color_wanted();  // standard output is a terminal, and NO_COLOR is not set
+
+// Text from outside, such as the name of a file, as it may be shown on a terminal and stand in a
+// JSON string: control characters as \n, \t or \x1b, bytes that are not UTF-8 as \xff.
+std::string printable(std::string_view text);
+
+}  // namespace phongpipe

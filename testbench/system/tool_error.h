@@ -1,0 +1,14 @@
+// A tool or the machine failed (compiler, disk, memory), told in one line with what to look at.
+#pragma once
+
+#include <stdexcept>
+
+namespace phongpipe {
+
+// The program prints what() and exits with status 3.
+class ToolError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace phongpipe
