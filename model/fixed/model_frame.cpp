@@ -17,27 +17,34 @@ ModelFrame run_model(const FrameSetup& frame, const Geometry& geometry, Evaluati
   result.stream.reserve(2 * result.framebuffer.size() * frame.passes);
   result.spans.reserve(result.framebuffer.size() * frame.passes);
   PixelDatapath datapath(frame.configuration, evaluation, frame.cue_color);
+  std::vector<Span> spans;  // of a triangle, and the colours of their pixels
   std::vector<std::uint32_t> colors;
   std::vector<std::uint8_t> taken;
   TriangleWork work;
   std::uint32_t loaded = ~std::uint32_t{0};
-  const auto shade = [&](const RowSpan& row) {
-    const Span span = front_end.span_walker().start(work.setup, row);
-    if (span.highlight && span.table != loaded) {
-      loaded = span.table;
+  const auto shade = [&] {
+    spans.clear();
+    std::size_t pixels = 0;
+    for (const RowSpan& row : work.rows) {
+      spans.push_back(front_end.span_walker().start(work.setup, row));
+      pixels += static_cast<std::size_t>(row.length);
+    }
+    if (work.setup.plan.specular && work.setup.material->table != loaded) {
+      loaded = work.setup.material->table;
       datapath.load_table(frame.tables[loaded]);
     }
-    const auto length = static_cast<std::size_t>(row.length);
-    if (colors.size() < PixelDatapath::padded(row.length)) {
-      colors.resize(PixelDatapath::padded(row.length));
-      taken.resize(colors.size());
-    }
-    datapath.shade(span, colors.data());
-    result.spans.push_back({row, span.triangle});
-    result.framebuffer.take_span(frame, span, colors.data(), taken.data());
-    for (std::size_t i = 0; i < length; ++i) {
-      result.stream.push_back({static_cast<std::uint16_t>(row.x + static_cast<int>(i)),
-                               static_cast<std::uint16_t>(row.y), colors[i]});
+    colors.resize(std::max(colors.size(), pixels + PixelDatapath::kLanes));
+    taken.resize(colors.size());
+    datapath.shade(spans.data(), spans.size(), colors.data());
+    const std::uint32_t* color = colors.data();
+    for (const Span& span : spans) {
+      const RowSpan& row = span.row;
+      result.spans.push_back({row, span.triangle});
+      result.framebuffer.take_span(frame, span, color, taken.data());
+      for (int i = 0; i < row.length; ++i) {
+        result.stream.push_back(
+            {static_cast<std::uint16_t>(row.x + i), static_cast<std::uint16_t>(row.y), *color++});
+      }
     }
   };
   for (TriangleOrder next(front_end); !next.done(); next.advance()) {
@@ -51,9 +58,9 @@ ModelFrame run_model(const FrameSetup& frame, const Geometry& geometry, Evaluati
     bool overflow = work.setup.overflow;
     for (const RowSpan& row : work.rows) {
       overflow = overflow || !front_end.span_walker().fits(work.setup, row);
-      shade(row);
     }
     if (overflow) ++result.coefficient_overflows;
+    shade();
   }
   return result;
 }
