@@ -30,19 +30,38 @@ bool SpanStream::next_triangle() {
 }
 
 bool SpanStream::next() {
+  if (current_ + 1 < spans_.size()) {
+    first_color_ += static_cast<std::size_t>(span().row.length);
+    ++current_;
+    return true;
+  }
+  return next_batch();
+}
+
+// Spans of one triangle are shaded together, which short ones gain by; not too many of them, so
+// that their colours stay in the cache.
+bool SpanStream::next_batch() {
+  constexpr std::size_t kLargestBatch = 64;
+  spans_.clear();
+  current_ = first_color_ = 0;
   if (next_row_ == work_.rows.size() && !next_triangle()) {
     work_.rows.clear();
     next_row_ = 0;
     return false;
   }
-  span_ = front_end_.span_walker().start(work_.setup, work_.rows[next_row_++]);
-  if (span_.highlight && span_.table != loaded_table_) {
-    loaded_table_ = span_.table;
+  std::size_t pixels = 0;
+  for (; next_row_ < work_.rows.size() && spans_.size() < kLargestBatch; ++next_row_) {
+    spans_.push_back(front_end_.span_walker().start(work_.setup, work_.rows[next_row_]));
+    pixels += static_cast<std::size_t>(spans_.back().row.length);
+  }
+  if (is_present(work_.setup.plan.specular) && work_.setup.material->table != loaded_table_) {
+    loaded_table_ = work_.setup.material->table;
     datapath_.load_table(frame_.tables[loaded_table_]);
   }
-  const std::size_t padded = PixelDatapath::padded(span_.row.length);
-  if (colors_.size() < padded) colors_.resize(padded);
-  datapath_.shade(span_, colors_.data());
+  if (colors_.size() < pixels + PixelDatapath::kLanes) {
+    colors_.resize(pixels + PixelDatapath::kLanes);
+  }
+  datapath_.shade(spans_.data(), spans_.size(), colors_.data());
   return true;
 }
 

@@ -25,12 +25,13 @@ class SpanStream {
 
   // Goes on to the next span; false where there is none.
   bool next();
-  const Span& span() const { return span_; }
+  const Span& span() const { return spans_[current_]; }
   // Of each pixel of the span.
-  const std::uint32_t* colors() const { return colors_.data(); }
+  const std::uint32_t* colors() const { return colors_.data() + first_color_; }
   const TriangleCounts& triangles() const { return triangles_; }
 
  private:
+  bool next_batch();
   bool next_triangle();
 
   const FrameSetup& frame_;
@@ -40,8 +41,9 @@ class SpanStream {
   std::uint32_t loaded_table_ = ~std::uint32_t{0};
   TriangleWork work_;
   std::size_t next_row_ = 0;
-  Span span_;
+  std::vector<Span> spans_;  // of the batch
   std::vector<std::uint32_t> colors_;
+  std::size_t current_ = 0, first_color_ = 0;
   TriangleCounts triangles_;
 };
 

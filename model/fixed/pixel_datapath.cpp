@@ -26,19 +26,20 @@ struct Avx2Gather {
 };
 
 template <typename Word, int kChannels, bool kSpecular, GateSource kGate>
-__attribute__((target("avx2"))) void shade_avx2(const LaneInputs& inputs, const Span& span,
-                                                std::uint32_t* colors) {
-  shade_lanes<Word, 8, kChannels, kSpecular, kGate, Avx2Gather>(inputs, span, colors);
+__attribute__((target("avx2"))) void shade_avx2(const LaneInputs& inputs, const Span* spans,
+                                                std::size_t count, std::uint32_t* colors) {
+  shade_lanes<Word, 8, kChannels, kSpecular, kGate, Avx2Gather>(inputs, spans, count, colors);
 }
 #endif
 
 // Four lanes of 32 bits are what a register of plain x86-64 holds.
 template <typename Word, int kChannels, bool kSpecular, GateSource kGate>
-void shade_portable(const LaneInputs& inputs, const Span& span, std::uint32_t* colors) {
-  shade_lanes<Word, 4, kChannels, kSpecular, kGate, LoopGather>(inputs, span, colors);
+void shade_portable(const LaneInputs& inputs, const Span* spans, std::size_t count,
+                    std::uint32_t* colors) {
+  shade_lanes<Word, 4, kChannels, kSpecular, kGate, LoopGather>(inputs, spans, count, colors);
 }
 
-using ShadeFunction = void (*)(const LaneInputs&, const Span&, std::uint32_t*);
+using ShadeFunction = void (*)(const LaneInputs&, const Span*, std::size_t, std::uint32_t*);
 
 template <typename Word, int kChannels, bool kSpecular, GateSource kGate>
 ShadeFunction select_instructions(Evaluation evaluation) {
@@ -49,9 +50,11 @@ ShadeFunction select_instructions(Evaluation evaluation) {
 }
 
 template <typename Word, int kChannels>
-ShadeFunction select_highlight(bool specular, GateSource gate, Evaluation evaluation) {
-  if (!specular) return select_instructions<Word, kChannels, false, GateSource::off>(evaluation);
-  switch (gate) {
+ShadeFunction select_highlight(const DatapathConfiguration& configuration, Evaluation evaluation) {
+  if (!configuration.specular) {
+    return select_instructions<Word, kChannels, false, GateSource::off>(evaluation);
+  }
+  switch (configuration.gate) {
     case GateSource::off:
       return select_instructions<Word, kChannels, true, GateSource::off>(evaluation);
     case GateSource::series:
@@ -62,16 +65,14 @@ ShadeFunction select_highlight(bool specular, GateSource gate, Evaluation evalua
   return select_instructions<Word, kChannels, true, GateSource::diffuse>(evaluation);
 }
 
-ShadeFunction select_shade(const DatapathConfiguration& configuration, bool specular,
-                           Evaluation evaluation) {
+ShadeFunction select_shade(const DatapathConfiguration& configuration, Evaluation evaluation) {
   const bool narrow = configuration.diffuse_width() <= 32 && configuration.specular_width() <= 32;
-  const GateSource gate = configuration.gate;
   if (configuration.channels == 1) {
-    return narrow ? select_highlight<std::int32_t, 1>(specular, gate, evaluation)
-                  : select_highlight<std::int64_t, 1>(specular, gate, evaluation);
+    return narrow ? select_highlight<std::int32_t, 1>(configuration, evaluation)
+                  : select_highlight<std::int64_t, 1>(configuration, evaluation);
   }
-  return narrow ? select_highlight<std::int32_t, 3>(specular, gate, evaluation)
-                : select_highlight<std::int64_t, 3>(specular, gate, evaluation);
+  return narrow ? select_highlight<std::int32_t, 3>(configuration, evaluation)
+                : select_highlight<std::int64_t, 3>(configuration, evaluation);
 }
 
 }  // namespace
@@ -88,8 +89,7 @@ PixelDatapath::PixelDatapath(const DatapathConfiguration& configuration, Evaluat
     : configuration_(configuration),
       evaluation_(evaluation),
       cue_color_(cue_color),
-      shade_with_highlight_(select_shade(configuration_, configuration_.specular, evaluation)),
-      shade_without_(select_shade(configuration_, false, evaluation)) {
+      shade_lanes_(select_shade(configuration_, evaluation)) {
   configuration_.check();
 }
 
@@ -101,13 +101,15 @@ void PixelDatapath::load_table(const HighlightTable& table) {
   }
 }
 
-void PixelDatapath::shade(const Span& span, std::uint32_t* colors) const {
-  if (evaluation_ == Evaluation::stepping) {
-    shade_stepping(span, colors);
+void PixelDatapath::shade(const Span* spans, std::size_t count, std::uint32_t* colors) const {
+  if (evaluation_ != Evaluation::stepping) {
+    shade_lanes_({&configuration_, cue_color_.data(), rom_.data()}, spans, count, colors);
     return;
   }
-  const auto shade_lanes = span.highlight ? shade_with_highlight_ : shade_without_;
-  shade_lanes({&configuration_, cue_color_.data(), rom_.data()}, span, colors);
+  for (const Span* span = spans; span != spans + count; ++span) {
+    shade_stepping(*span, colors);
+    colors += span->row.length;
+  }
 }
 
 void PixelDatapath::shade_stepping(const Span& span, std::uint32_t* colors) const {

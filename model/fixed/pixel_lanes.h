@@ -1,11 +1,12 @@
 // The closed form of the pixel loop, kLanes pixels at a time; bit for bit the values of stepping.
 //
-// Registers are left-aligned in Word, so that its overflow is theirs. One source, compiled for each
+// Registers are left-aligned in Word, so that its overflow is theirs; it wraps, as the compiler is
+// told to make of it (-fwrapv). One source, compiled for each
 // instruction set by the functions that inline it (pixel_datapath.cpp).
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
+#include <cstring>
 
 #include "model/fixed/pixel_datapath.h"
 
@@ -20,34 +21,51 @@ struct LaneSeries {
   using Vector = Lanes<Word, kLanes>;
   Vector v = {}, d1 = {}, d2 = {};
 
-  // v(i) = v + i d1 + i(i−1)/2 d2; v(i + k) − v(i) = k d1 + (k i + k(k−1)/2) d2.
-  inline __attribute__((always_inline)) void load(const SeriesStart& start, int width) {
-    using Unsigned = std::make_unsigned_t<Word>;
-    const int shift = static_cast<int>(8 * sizeof(Word)) - width;
-    const auto aligned = [shift](std::int64_t value) {
-      return static_cast<Word>(static_cast<Unsigned>(value) << shift);
-    };
-    const Word first = aligned(start.v), slope = aligned(start.d1), bend = aligned(start.d2);
-    Vector index = {}, pairs = {};
+  // v(i) = v + i d1 + i(i−1)/2 d2. `unused`: bits of a word beyond the register's width.
+  inline __attribute__((always_inline)) void load(const SeriesStart& start, int unused) {
+    Vector index, pairs;
     for (int i = 0; i < kLanes; ++i) {
       index[i] = i;
       pairs[i] = i * (i - 1) / 2;
     }
-    v = index * slope + pairs * bend + first;
-    d1 = (kLanes * index + kLanes * (kLanes - 1) / 2) * bend + wrapping_multiply(slope, kLanes);
-    d2 = Vector{} + wrapping_multiply(bend, kLanes * kLanes);
+    v = index * static_cast<Word>(start.d1) + pairs * static_cast<Word>(start.d2);
+    v = (v + static_cast<Word>(start.v)) << unused;
+  }
+
+  // v(i + k) − v(i) = k d1 + (k i + k(k−1)/2) d2. For spans of more than kLanes pixels.
+  inline __attribute__((always_inline)) void load_differences(const SeriesStart& start,
+                                                              int unused) {
+    Vector pairs;
+    for (int i = 0; i < kLanes; ++i) pairs[i] = kLanes * i + kLanes * (kLanes - 1) / 2;
+    d1 = (pairs * static_cast<Word>(start.d2) + kLanes * static_cast<Word>(start.d1)) << unused;
+    d2 = (Vector{} + kLanes * kLanes * static_cast<Word>(start.d2)) << unused;
   }
 
   inline __attribute__((always_inline)) void advance() {
     v += d1;
     d1 += d2;
   }
+};
 
- private:
-  static Word wrapping_multiply(Word a, int b) {
-    using Unsigned = std::make_unsigned_t<Word>;
-    return static_cast<Word>(static_cast<Unsigned>(a) * static_cast<Unsigned>(b));
-  }
+// What all spans have in common. Shifts are in bits.
+template <typename Word>
+struct LaneFormat {
+  explicit LaneFormat(const DatapathConfiguration& configuration)
+      : depth_cue(configuration.depth_cue),
+        unused_diffuse(kBits - configuration.diffuse_width()),
+        unused_specular(kBits - configuration.specular_width()),
+        sum_fraction(configuration.sum_fraction_bits()),
+        diffuse_shift(kBits - (1 + kGuardBits + kOutputBits) - sum_fraction),
+        address_shift(kBits - (1 + kGuardBits + configuration.rom_address_bits)),
+        last_address(static_cast<Word>(configuration.rom_words() - 1)) {}
+
+  static constexpr int kBits = static_cast<int>(8 * sizeof(Word));
+  static constexpr int kUnusedCue = kBits - kCueWidth;
+  static constexpr int kFactorShift = kBits - 1 - kCueIntegerBits - kCueFactorBits;
+  bool depth_cue;
+  int unused_diffuse, unused_specular;  // beyond the registers' widths
+  int sum_fraction, diffuse_shift, address_shift;
+  Word last_address;
 };
 
 struct LaneInputs {
@@ -56,59 +74,66 @@ struct LaneInputs {
   const std::int32_t* const* aligned_rom;  // of each channel
 };
 
-// Gather: lanes of words[address]. kSpecular: whether the span has a highlight.
-template <typename Word, int kLanes, int kChannels, bool kSpecular, GateSource kGate,
-          typename Gather>
-inline __attribute__((always_inline)) void shade_lanes(const LaneInputs& inputs, const Span& span,
-                                                       std::uint32_t* colors) {
+// kLanes pixels of a span. kSpecular: whether it has a highlight.
+template <typename Word, int kLanes, int kChannels, bool kSpecular, GateSource kGate>
+struct PixelLanes {
   using Vector = Lanes<Word, kLanes>;
-  const DatapathConfiguration& configuration = *inputs.configuration;
-  constexpr int kBits = static_cast<int>(8 * sizeof(Word));
-  const int diffuse_width = configuration.diffuse_width();
-  const int sum_fraction = configuration.sum_fraction_bits();
-  const int diffuse_shift = kBits - (1 + kGuardBits + kOutputBits) - sum_fraction;
-  const int address_shift = kBits - (1 + kGuardBits + configuration.rom_address_bits);
-  const Word last_address = static_cast<Word>(configuration.rom_words() - 1);
-  const bool depth_cue = configuration.depth_cue;
-
+  using Format = LaneFormat<Word>;
   LaneSeries<Word, kLanes> specular, gate, cue, diffuse[kChannels];
   Word level[kChannels];
-  if constexpr (kSpecular) specular.load(span.specular, configuration.specular_width());
-  if constexpr (kSpecular && kGate == GateSource::series) gate.load(span.gate, diffuse_width);
-  if (depth_cue) cue.load(span.cue, kCueWidth);
-  for (std::size_t c = 0; c < kChannels; ++c) {
-    diffuse[c].load(span.diffuse[c], diffuse_width);
-    level[c] = static_cast<Word>(static_cast<std::make_unsigned_t<Word>>(span.level[c])
-                                 << (kBits - diffuse_width));
+
+  inline __attribute__((always_inline)) void load(const Format& format, const Span& span) {
+    if constexpr (kSpecular) specular.load(span.specular, format.unused_specular);
+    if constexpr (kGate == GateSource::series) gate.load(span.gate, format.unused_diffuse);
+    if (format.depth_cue) cue.load(span.cue, Format::kUnusedCue);
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      diffuse[c].load(span.diffuse[c], format.unused_diffuse);
+      level[c] = static_cast<Word>(span.level[c]) << format.unused_diffuse;
+    }
   }
 
-  for (int i = 0; i < span.row.length; i += kLanes) {
+  inline __attribute__((always_inline)) void load_differences(const Format& format,
+                                                              const Span& span) {
+    if constexpr (kSpecular) specular.load_differences(span.specular, format.unused_specular);
+    if constexpr (kGate == GateSource::series) {
+      gate.load_differences(span.gate, format.unused_diffuse);
+    }
+    if (format.depth_cue) cue.load_differences(span.cue, Format::kUnusedCue);
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      diffuse[c].load_differences(span.diffuse[c], format.unused_diffuse);
+    }
+  }
+
+  inline __attribute__((always_inline)) void advance(const Format& format) {
+    if constexpr (kSpecular) specular.advance();
+    if constexpr (kGate == GateSource::series) gate.advance();
+    if (format.depth_cue) cue.advance();
+    for (auto& series : diffuse) series.advance();
+  }
+
+  template <typename Gather>
+  inline __attribute__((always_inline)) void shade(const Format& format, const LaneInputs& inputs,
+                                                   bool base, std::uint32_t* colors) const {
     Vector address = {};
     Vector open = Vector{} - 1;  // all ones: the highlight counts
     if constexpr (kSpecular) {
-      address = specular.v >> address_shift;
+      address = specular.v >> format.address_shift;
       address = address < 0 ? Vector{} : address;
-      address = address > last_address ? Vector{} + last_address : address;
-      specular.advance();
-      if constexpr (kGate == GateSource::series) {
-        open = gate.v > 0;
-        gate.advance();
-      }
+      address = address > format.last_address ? Vector{} + format.last_address : address;
+      if constexpr (kGate == GateSource::series) open = gate.v > 0;
       if constexpr (kGate == GateSource::diffuse) open = Vector{};
     }
     Vector clamped[kChannels];
     for (int c = 0; c < kChannels; ++c) {
       const Vector lit = diffuse[c].v > level[c];
       if constexpr (kSpecular && kGate == GateSource::diffuse) open |= lit;
-      clamped[c] = (lit ? diffuse[c].v : Vector{} + level[c]) >> diffuse_shift;
-      diffuse[c].advance();
+      clamped[c] = (lit ? diffuse[c].v : Vector{} + level[c]) >> format.diffuse_shift;
     }
     Vector factor = {};
-    if (depth_cue) {
-      factor = cue.v >> (kBits - 1 - kCueIntegerBits - kCueFactorBits);
+    if (format.depth_cue) {
+      factor = cue.v >> Format::kFactorShift;
       factor = factor < 0 ? Vector{} : factor;
       factor = factor > (1 << kCueFactorBits) ? Vector{} + (1 << kCueFactorBits) : factor;
-      cue.advance();
     }
 
     Vector color = {};
@@ -119,17 +144,49 @@ inline __attribute__((always_inline)) void shade_lanes(const LaneInputs& inputs,
         Gather::read(inputs.aligned_rom[c], address, word);
         sum += word & open;
       }
-      sum = sum >> sum_fraction;
-      if (depth_cue) {
-        const Word own = span.base ? inputs.cue_color[c] : 0;
+      sum = sum >> format.sum_fraction;
+      if (format.depth_cue) {
+        const Word own = base ? inputs.cue_color[c] : 0;
         sum = own + (((sum - own) * factor + (1 << (kCueFactorBits - 1))) >> kCueFactorBits);
       }
       sum = sum > kOutputMax ? Vector{} + kOutputMax : sum;
       color |= sum << (c * kOutputBits);
     }
-    for (int lane = 0; lane < kLanes; ++lane) {
-      colors[i + lane] = static_cast<std::uint32_t>(color[lane]);
+    const auto stored = __builtin_convertvector(color, Lanes<std::uint32_t, kLanes>);
+    std::memcpy(colors, &stored, sizeof(stored));
+  }
+};
+
+template <typename Word, int kLanes, int kChannels, bool kSpecular, GateSource kGate,
+          typename Gather>
+inline __attribute__((always_inline)) void shade_span(const LaneFormat<Word>& format,
+                                                      const LaneInputs& inputs, const Span& span,
+                                                      std::uint32_t* colors) {
+  PixelLanes<Word, kLanes, kChannels, kSpecular, kGate> lanes;
+  lanes.load(format, span);
+  lanes.template shade<Gather>(format, inputs, span.base, colors);
+  if (span.row.length <= kLanes) return;
+  lanes.load_differences(format, span);
+  for (int i = kLanes; i < span.row.length; i += kLanes) {
+    lanes.advance(format);
+    lanes.template shade<Gather>(format, inputs, span.base, colors + i);
+  }
+}
+
+// Gather: lanes of words[address]. kSpecular: whether spans may have a highlight.
+template <typename Word, int kLanes, int kChannels, bool kSpecular, GateSource kGate,
+          typename Gather>
+inline __attribute__((always_inline)) void shade_lanes(const LaneInputs& inputs, const Span* spans,
+                                                       std::size_t count, std::uint32_t* colors) {
+  const LaneFormat<Word> format(*inputs.configuration);
+  for (const Span* span = spans; span != spans + count; ++span) {
+    if (kSpecular && span->highlight) {
+      shade_span<Word, kLanes, kChannels, kSpecular, kGate, Gather>(format, inputs, *span, colors);
+    } else {
+      shade_span<Word, kLanes, kChannels, false, GateSource::off, Gather>(format, inputs, *span,
+                                                                          colors);
     }
+    colors += span->row.length;
   }
 }
 

@@ -23,12 +23,12 @@ struct Span {
   // What the datapath is spared: series that stay as they start, and a highlight of words 0.
   bool step_diffuse = true, step_specular = true;
   bool highlight = true;
-  std::int64_t depth = 0, depth_step = 0;  // kDepthFraction bits below one step of depth
   std::array<std::int64_t, 3> level = {};  // ambient light and the rounding half, as MaterialSetup
   SeriesStart specular;
-  std::array<SeriesStart, 3> diffuse;  // those of the channels in use
-  SeriesStart gate;                    // where it has a series of its own
-  SeriesStart cue;                     // where there is depth cueing
+  std::array<SeriesStart, 3> diffuse;      // those of the channels in use
+  SeriesStart gate;                        // where it has a series of its own
+  SeriesStart cue;                         // where there is depth cueing
+  std::int64_t depth = 0, depth_step = 0;  // kDepthFraction bits below one step of depth
 };
 
 // Fraction bits of the depth series; a span of 4096 pixels drifts by less than a step.

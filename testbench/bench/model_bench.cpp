@@ -64,14 +64,35 @@ void phong_in_double(benchmark::State& state) {
   count_pixels(state, spans);
 }
 
+struct SpansOfTriangle {
+  const Span* first;
+  std::size_t count, pixels;
+};
+
+std::vector<SpansOfTriangle> by_triangle(const std::vector<Span>& spans) {
+  std::vector<SpansOfTriangle> triangles;
+  for (const Span& span : spans) {
+    if (triangles.empty() || triangles.back().first->triangle != span.triangle) {
+      triangles.push_back({&span, 0, 0});
+    }
+    ++triangles.back().count;
+    triangles.back().pixels += static_cast<std::size_t>(span.row.length);
+  }
+  return triangles;
+}
+
+// A triangle at a time, as run_model does.
 void model(benchmark::State& state, Evaluation evaluation) {
   const std::vector<Span> spans = spans_of_length(state.range(0));
+  const std::vector<SpansOfTriangle> triangles = by_triangle(spans);
+  std::size_t most = 0;
+  for (const SpansOfTriangle& triangle : triangles) most = std::max(most, triangle.pixels);
   PixelDatapath datapath(pawn().frame.configuration, evaluation);
   datapath.load_table(pawn().table());
-  std::vector<std::uint32_t> colors(4096 + PixelDatapath::kLanes);
+  std::vector<std::uint32_t> colors(most + PixelDatapath::kLanes);
   for (auto _ : state) {
-    for (const Span& span : spans) {
-      datapath.shade(span, colors.data());
+    for (const SpansOfTriangle& triangle : triangles) {
+      datapath.shade(triangle.first, triangle.count, colors.data());
       benchmark::DoNotOptimize(colors.data());
       benchmark::ClobberMemory();
     }

@@ -64,15 +64,15 @@ void compared(benchmark::State& state) {
   RtlLoop loop;
   PixelDatapath datapath(pawn().frame.configuration);
   datapath.load_table(pawn().table());
-  std::vector<std::uint32_t> colors(4096 + PixelDatapath::kLanes);
+  std::vector<std::uint32_t> colors(RtlLoop::kPixels + PixelDatapath::kLanes);
   std::vector<RtlPixel> expected(RtlLoop::kPixels + PixelDatapath::kLanes);
   std::uint64_t different_batches = 0;
   for (auto _ : state) {
     loop.run([&](const Span* spans, std::size_t count, const RtlPixel* pixels) {
+      datapath.shade(spans, count, colors.data());
       std::size_t end = 0;
       for (std::size_t s = 0; s < count; ++s) {
-        datapath.shade(spans[s], colors.data());
-        expect_span(spans[s], colors.data(), expected.data() + end);
+        expect_span(spans[s], colors.data() + end, expected.data() + end);
         end += static_cast<std::size_t>(spans[s].row.length);
       }
       different_batches += std::memcmp(expected.data(), pixels, end * sizeof(RtlPixel)) != 0;

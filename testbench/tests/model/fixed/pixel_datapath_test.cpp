@@ -55,6 +55,38 @@ void expect_stepping(Evaluation evaluation) {
   }
 }
 
+// Back to back, whatever the lengths, with and without highlights.
+void expect_batch_is_its_spans(Evaluation evaluation) {
+  SCOPED_TRACE(kSeed);
+  Random random(kSeed);
+  for (int i = 0; i < 100; ++i) {
+    const DatapathConfiguration c = random_configuration(random);
+    PixelDatapath datapath(c, evaluation, random_color(random));
+    datapath.load_table(random_table(random, c));
+    std::vector<Span> spans;
+    std::vector<std::uint32_t> expected;
+    std::size_t room = 0;
+    for (int k = random.integer(0, 20); k > 0; --k) {
+      spans.push_back(random_span(random, c, random.integer(1, 20)));
+      const std::vector<std::uint32_t> colors = shade(datapath, spans.back());
+      room = expected.size() + PixelDatapath::padded(spans.back().row.length);
+      expected.insert(expected.end(), colors.begin(), colors.end());
+    }
+    std::vector<std::uint32_t> colors(room + 1, kUntouched);
+    datapath.shade(spans.data(), spans.size(), colors.data());
+    EXPECT_EQ(colors.back(), kUntouched) << "written beyond the room of the last span";
+    colors.resize(expected.size());
+    ASSERT_EQ(colors, expected) << spans.size() << " spans; " << text(c);
+  }
+}
+
+TEST(PixelDatapath, SpansTogetherAreThoseOneByOne) {
+  for (const Evaluation evaluation :
+       {Evaluation::stepping, Evaluation::portable, best_evaluation()}) {
+    expect_batch_is_its_spans(evaluation);
+  }
+}
+
 TEST(PixelDatapath, PortableEqualsStepping) {
   expect_stepping(Evaluation::portable);
 }
