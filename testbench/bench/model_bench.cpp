@@ -33,15 +33,15 @@ void count_pixels(benchmark::State& state, const std::vector<Span>& spans) {
 void phong_in_double(benchmark::State& state) {
   const std::vector<Span> spans = spans_of_length(state.range(0));
   const PawnFrame& frame = pawn();
-  const Material& material = frame.geometry.materials.front();
+  const Material& material = frame.prepared.geometry().materials.front();
   const Power power(PowerKind::exact, material.shininess);
   const ShadingMethod& method = *find_shading_method("phong");
   std::vector<std::unique_ptr<TriangleShader>> triangles;
-  for (const ScreenTriangle& triangle : frame.geometry.triangles) {
+  for (const ScreenTriangle& triangle : frame.prepared.geometry().triangles) {
     const auto [x, y] = centroid_pixel(triangle);
-    triangles.push_back(method.create({frame.scene, material, triangle, power, x, y}));
+    triangles.push_back(method.create({frame.prepared.scene, material, triangle, power, x, y}));
   }
-  const double ambient = 255 * material.ambient[0] * frame.scene.shading.ambient_light[0];
+  const double ambient = 255 * material.ambient[0] * frame.prepared.scene.shading.ambient_light[0];
   const double diffuse = 255 * material.diffuse[0], specular = 255 * material.specular[0];
   std::vector<Reflection<double>> reflections(4096);
   std::vector<double> colors(4096);

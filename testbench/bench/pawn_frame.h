@@ -6,34 +6,30 @@
 #include "model/files/scene_file.h"
 #include "model/fixed/front_end.h"
 #include "model/fixed/model_frame.h"
+#include "model/fixed/prepared_frame.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/system/installation.h"
 
 namespace phongpipe {
 
 struct PawnFrame {
-  Scene scene;
-  Geometry geometry;
   Hardware hardware;
-  FrameSetup frame;
+  PreparedFrame prepared;
+  const FrameSetup& frame;
   std::int64_t pixels = 0;
-
-  PawnFrame(const PawnFrame&) = delete;  // the frame refers to the scene
-  PawnFrame& operator=(const PawnFrame&) = delete;
 
   explicit PawnFrame(int size = 2048) : PawnFrame(load(size), "paper-1k", Effects::derived) {}
 
-  PawnFrame(const Scene& described, const char* preset, Effects effects)
-      : scene(described),
-        geometry(make_geometry(scene)),
-        hardware(suited(scene, geometry, preset, effects)),
-        frame(scene, geometry, hardware.datapath, hardware.pipeline.depth_bits, effects) {
+  PawnFrame(const Scene& scene, const char* preset, Effects effects)
+      : hardware(load_hardware(preset, {})),
+        prepared(scene, hardware.formats, hardware.setup, effects),
+        frame(prepared.setup) {
     for_each_span([this](const Span& span) { pixels += span.row.length; });
   }
 
   template <typename Visit>
   void for_each_span(Visit visit) const {
-    const FrontEnd front_end(frame, geometry);
+    const FrontEnd front_end(frame);
     TriangleWork work;
     for (TriangleOrder next(front_end); !next.done(); next.advance()) {
       if (front_end.set_up(next.triangle(), next.pass(), work) != SetupOutcome::ready) continue;
@@ -54,14 +50,6 @@ struct PawnFrame {
     Scene scene = load_scene(installation().scenes / "pawn.toml");
     scene.image.width = scene.image.height = size;
     return scene;
-  }
-
- private:
-  static Hardware suited(const Scene& scene, const Geometry& geometry, const char* preset,
-                         Effects effects) {
-    Hardware hardware = load_hardware(preset, {});
-    suit_scene(hardware, scene, geometry, effects);
-    return hardware;
   }
 };
 

@@ -9,6 +9,7 @@
 
 #include "sim/pipeline.h"
 #include "testbench/bench/pawn_frame.h"
+#include "testbench/cosim/stream_checker.h"
 #include "testbench/system/process.h"
 
 namespace phongpipe {
@@ -19,18 +20,14 @@ void simulate_frame(benchmark::State& state, const PawnFrame& pawn, Detail detai
     Child child([&] {
       SimulationOptions options;
       options.detail = detail;
-      std::uint64_t sum = 0;
-      options.observe = [&sum](const ShadedPixel* pixels, const std::int64_t* cycles,
-                               std::size_t count) {
-        for (std::size_t i = 0; i < count; ++i) {
-          sum += pixels[i].color ^ static_cast<std::uint64_t>(cycles[i]);
-        }
-      };
+      StreamHash hash;  // as `verify` does
+      options.observe = [&hash](const ShadedPixel* pixels, const std::int64_t* cycles,
+                                std::size_t count) { hash.add(pixels, cycles, count); };
       const auto start = std::chrono::steady_clock::now();
       const SimulationResult result =
-          simulate(pawn.frame, pawn.geometry, pawn.hardware.pipeline, options);
+          simulate(pawn.frame, pawn.hardware.pipeline, options);
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-      benchmark::DoNotOptimize(sum);
+      benchmark::DoNotOptimize(hash);
       benchmark::DoNotOptimize(result.frame_cycles);
       return fmt::format("{}", seconds.count());
     });
@@ -63,7 +60,7 @@ void by_span_at_size(benchmark::State& state) {
 void model_at_size(benchmark::State& state) {
   const PawnFrame frame(static_cast<int>(state.range(0)));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(run_model(frame.frame, frame.geometry).stream.size());
+    benchmark::DoNotOptimize(run_model(frame.frame).pixels);
   }
   state.SetItemsProcessed(state.iterations() * frame.pixels);
 }

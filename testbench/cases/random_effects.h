@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "testbench/cases/format_range.h"
 #include "testbench/cases/random_frame.h"
 
 namespace phongpipe {
@@ -12,7 +13,7 @@ namespace phongpipe {
 struct RandomEffects {
   Scene scene;
   Geometry geometry;
-  DatapathConfiguration configuration;  // not yet suited to the scene
+  FrameConfiguration configuration;  // not yet suited to the scene
 };
 
 // In sixteenths, so that several of a scene are the same now and then, black and full included.
@@ -88,7 +89,7 @@ inline RandomEffects random_effects(Random& random, bool grey = false) {
   }
   geometry.triangles_read = geometry.triangles.size();
 
-  DatapathConfiguration& c = result.configuration;
+  FrameConfiguration& c = result.configuration;
   c.channels = grey ? 1 : 3;
   c.rom_address_bits = 6;  // short loads, so that other waits show
   c.rom_data_bits = random.integer(kMinRomDataBits, kMaxRomDataBits);

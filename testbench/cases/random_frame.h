@@ -40,6 +40,19 @@ class Random {
   std::mt19937_64 generator_;
 };
 
+// The configuration with the blocks that the scene's effects call for, or all. Channels and a gate
+// that is off stay as they are.
+inline FrameConfiguration with_derived_blocks(FrameConfiguration configuration, const Scene& scene,
+                                              const Geometry& geometry,
+                                              Effects effects = Effects::derived) {
+  configuration.channel_choice =
+      configuration.channels == 1 ? ChannelChoice::one : ChannelChoice::three;
+  configuration.gate_choice = configuration.gate;
+  static_cast<EffectBlocks&>(configuration) =
+      derive_blocks(configuration, scene, geometry, effects);
+  return configuration;
+}
+
 // One light and an eye at infinity, in front of surfaces that face +z.
 inline Scene lit_scene(int width, int height) {
   Scene scene;

@@ -37,6 +37,7 @@ bool StreamChecker::next(ShadedPixel& pixel) {
     }
     next_in_span_ = 0;
     span_length_ = model_.span().row.length;
+    triangle_ = model_.span().triangle;
   }
   const RowSpan& row = model_.span().row;
   pixel = {static_cast<std::uint16_t>(row.x + next_in_span_), static_cast<std::uint16_t>(row.y),
@@ -49,7 +50,7 @@ void StreamChecker::record(const ShadedPixel& model, const ShadedPixel& found, s
                            bool missing) {
   ++mismatches_;
   if (first_) return;
-  first_ = Divergence{stream_index_, model_.span().triangle, cycle, model, found, missing};
+  first_ = Divergence{stream_index_, triangle_, cycle, model, found, missing};
 }
 
 void StreamChecker::observe(const ShadedPixel& pixel, std::int64_t cycle) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/files/scene_file.h"
+#include "model/fixed/prepared_frame.h"
 #include "testbench/accuracy/error_chain.h"
 #include "testbench/hardware/hardware.h"
 
@@ -13,25 +14,18 @@ namespace phongpipe {
 namespace {
 
 struct Measured {
-  Scene scene;
-  Geometry geometry;
-  FrameSetup frame;
+  Hardware hardware;
+  PreparedFrame frame;
   ModelFrame model;
 
   explicit Measured(const std::string& name, const std::vector<std::string>& overrides = {})
       : Measured(load_scene(std::string(PHONGPIPE_SCENES) + "/" + name + ".toml"), overrides) {}
   explicit Measured(const Scene& source, const std::vector<std::string>& overrides = {})
-      : scene(source),
-        geometry(make_geometry(scene)),
-        frame(scene, geometry, suited(overrides), 24),
-        model(run_model(frame, geometry)) {}
+      : hardware(load_hardware("paper-1k", overrides)),
+        frame(source, hardware.formats, hardware.setup),
+        model(run_model(frame.setup)) {}
 
-  DatapathConfiguration suited(const std::vector<std::string>& overrides) const {
-    Hardware hardware = load_hardware("paper-1k", overrides);
-    suit_scene(hardware, scene, geometry);
-    return hardware.datapath;
-  }
-  Accuracy accuracy() const { return measure_accuracy(scene, geometry, frame, model); }
+  Accuracy accuracy() const { return measure_accuracy(frame.setup, model); }
 };
 
 TEST(ErrorStatistics, ByHand) {
@@ -49,7 +43,7 @@ TEST(ErrorStatistics, ByHand) {
 TEST(ErrorChain, PartsAddUpToTheWholeAtEveryPixel) {
   const Measured m("torus");
   std::size_t visited = 0;
-  for_each_visible_pixel(m.scene, m.geometry, m.frame, m.model, [&](const ErrorChain& c) {
+  for_each_visible_pixel(m.frame.setup, m.model, [&](const ErrorChain& c) {
     ++visited;
     const Color parts = (c.polynomial - c.exact) + (c.rounded - c.polynomial) +
                         (c.table - c.rounded) + (c.output - c.table);
@@ -82,7 +76,7 @@ TEST(ErrorChain, OutputIsTheTableValueRoundedInEveryPass) {
       const Measured m(torus(two_lights, depth_cue));
       const double a_pass = depth_cue ? 0.5 + 0.5 + 512.0 / 1024 : 0.5;
       const double bound = (two_lights ? 2 : 1) * a_pass + 1e-9;
-      for_each_visible_pixel(m.scene, m.geometry, m.frame, m.model, [&](const ErrorChain& c) {
+      for_each_visible_pixel(m.frame.setup, m.model, [&](const ErrorChain& c) {
         ASSERT_LE((c.output - c.table).abs().maxCoeff(), bound) << two_lights << depth_cue;
       });
     }

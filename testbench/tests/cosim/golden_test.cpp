@@ -10,7 +10,7 @@
 
 #include "model/files/scene_file.h"
 #include "model/files/text_file.h"
-#include "model/scene/subdivision.h"
+#include "model/fixed/prepared_frame.h"
 #include "sim/pipeline.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/system/fnv_hash.h"
@@ -26,24 +26,20 @@ constexpr const char* kHeader =
 
 // One row: hashes of the settings, of the final frame's colours, and of the cycle of every pixel.
 std::string measure(const std::string& scene_name, const std::string& preset) {
-  Hardware hardware = load_hardware(preset, {});
-  const Scene scene = load_scene(fs::path(PHONGPIPE_SCENES) / (scene_name + ".toml"));
-  const Subdivision subdivision =
-      subdivide(scene, make_geometry(scene), hardware.datapath.subdivide_degrees);
-  suit_scene(hardware, scene, subdivision.geometry);
-  const FrameSetup frame(scene, subdivision.geometry, hardware.datapath,
-                         hardware.pipeline.depth_bits);
+  const Hardware hardware = load_hardware(preset, {});
+  const PreparedFrame frame(load_scene(fs::path(PHONGPIPE_SCENES) / (scene_name + ".toml")),
+                            hardware.formats, hardware.setup);
   SimulationOptions options;
   FnvHash cycles_hash, frame_hash;
   options.observe = [&](const ShadedPixel*, const std::int64_t* cycles, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) cycles_hash.add(static_cast<std::uint64_t>(cycles[i]));
   };
-  const SimulationResult result = simulate(frame, subdivision.geometry, hardware.pipeline, options);
+  const SimulationResult result = simulate(frame.setup, hardware.pipeline, options);
   for (std::size_t i = 0; i < result.framebuffer.size(); ++i) {
     frame_hash.add(result.framebuffer.color(i));
   }
   return fmt::format("{},{},{},{:016x},{},{:016x}\n", scene_name, preset,
-                     configuration_hash(hardware), frame_hash.value(), result.frame_cycles,
+                     configuration_hash(resolved(hardware, frame.setup.configuration)), frame_hash.value(), result.frame_cycles,
                      cycles_hash.value());
 }
 

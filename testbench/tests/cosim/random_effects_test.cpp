@@ -9,6 +9,7 @@
 #include <fstream>
 #include <random>
 
+#include "model/files/scene_file.h"
 #include "model/scene/input_error.h"
 #include "testbench/cosim/verification.h"
 
@@ -120,21 +121,22 @@ TEST(RandomEffects, NothingDiffersInAnyAccount) {
     const std::string toml = scene.toml();
     std::ofstream(file) << toml;
     Hardware hardware = preset;
-    hardware.datapath.series_fit = scene.fit();
-    if (scene.chance(0.2)) hardware.datapath.anchor = Anchor::triangle;
-    if (scene.chance(0.2)) hardware.datapath.gate = GateSource::off;
+    hardware.setup.series_fit = scene.fit();
+    if (scene.chance(0.2)) hardware.formats.anchor = Anchor::triangle;
+    if (scene.chance(0.2)) hardware.formats.gate_choice = GateSource::off;
     VerificationOptions options;
     options.budget_ns = 1e9;
+    options.effects = EffectsToVerify::both;
     options.detail = scene.chance(0.3) ? Detail::cycle : Detail::span;
     options.stall_percent = scene.chance(0.3) ? 20 : 0;
     options.seed = seed;
     try {
-      const Verification v = verify(file, hardware, options);
+      const VerificationResult v = verify(load_scene(file), hardware, options);
       ++shaded;
-      EXPECT_EQ(v.rtl.mismatches + v.rtl.frame_mismatches, 0U);
-      EXPECT_EQ(v.systemc.mismatches + v.systemc.frame_mismatches, 0U);
+      EXPECT_EQ(v.rtl.stream_mismatches + v.rtl.frame_mismatches, 0U);
+      EXPECT_EQ(v.systemc.stream_mismatches + v.systemc.frame_mismatches, 0U);
       EXPECT_TRUE(v.same_cycles());
-      EXPECT_EQ(v.everything->systemc.frame_mismatches, 0U);
+      EXPECT_EQ(v.full_hardware->systemc.frame_mismatches, 0U);
     } catch (const InputError& error) {
       // A camera may miss all objects.
       EXPECT_NE(std::string(error.what()).find("nothing of the scene covers a pixel"),

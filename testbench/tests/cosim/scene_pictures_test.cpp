@@ -7,34 +7,25 @@
 
 #include "model/files/scene_file.h"
 #include "model/fixed/model_frame.h"
+#include "model/fixed/prepared_frame.h"
 #include "model/scene/subdivision.h"
 #include "model/shading/phong.h"
+#include "testbench/cases/recorded_model.h"
 #include "testbench/hardware/hardware.h"
 
 namespace phongpipe {
 namespace {
 
 struct Shaded {
-  Scene scene;
-  Geometry geometry;
-  FrameSetup frame;
-  ModelFrame model;
+  PreparedFrame frame;
+  RecordedModel model;
 
   explicit Shaded(const Scene& source)
-      : scene(source),
-        geometry(
-            subdivide(scene, make_geometry(scene), hardware().datapath.subdivide_degrees).geometry),
-        frame(scene, geometry, suited(), hardware().pipeline.depth_bits),
-        model(run_model(frame, geometry)) {}
+      : frame(source, hardware().formats, hardware().setup), model(record_model(frame.setup)) {}
 
   static const Hardware& hardware() {
     static const Hardware preset = load_hardware("default", {});
     return preset;
-  }
-  DatapathConfiguration suited() const {
-    Hardware result = hardware();
-    suit_scene(result, scene, geometry);
-    return result.datapath;
   }
   // Of a covered pixel.
   std::array<int, 3> color(std::size_t index) const {
@@ -48,7 +39,7 @@ struct Shaded {
     for (std::size_t s = 0; s < model.spans.size(); ++s) {
       const auto& [row, triangle] = model.spans[s];
       for (int x = row.x; x < row.x + row.length; ++x) {
-        const auto index = static_cast<std::size_t>(row.y * scene.image.width + x);
+        const auto index = static_cast<std::size_t>(row.y * frame.setup.width + x);
         if (model.framebuffer.owned(index, triangle)) visit(triangle, x, row.y, index);
       }
     }
@@ -66,8 +57,8 @@ TEST(GoldenSphere, IsAFlatDiscWithAHighlight) {
   std::array<int, 3> brightest = {};
   golden.for_each_pixel([&](std::uint32_t triangle, int x, int y, std::size_t index) {
     Color exact;
-    const ScreenTriangle& source = golden.geometry.triangles[triangle];
-    PhongTriangle(golden.scene, golden.geometry.materials[source.material], source)
+    const ScreenTriangle& source = golden.frame.geometry().triangles[triangle];
+    PhongTriangle(golden.frame.scene, golden.frame.geometry().materials[source.material], source)
         .shade(x, y, 1, &exact);
     const std::array<int, 3> color = golden.color(index);
     // Words are rounded to whole LSB. Rounding a cosine near 0.73 to an address changes its power
@@ -99,7 +90,7 @@ TEST(GoldenSphere, HasNoHighlightWhereItFacesAwayFromTheLight) {
   const Shaded golden(scene);
   std::size_t dark = 0, lit = 0;
   golden.for_each_pixel([&](std::uint32_t triangle, int x, int y, std::size_t index) {
-    const auto& v = golden.geometry.triangles[triangle].vertices;
+    const auto& v = golden.frame.geometry().triangles[triangle].vertices;
     const bool away = std::all_of(v.begin(), v.end(), [&](const ScreenVertex& vertex) {
       return vertex.normal.dot(scene.lights.front().direction) > 0.02 * vertex.normal.norm();
     });

@@ -8,6 +8,7 @@
 #include "model/files/scene_file.h"
 #include "model/files/text_file.h"
 #include "model/fixed/model_frame.h"
+#include "testbench/cases/recorded_model.h"
 #include "testbench/reports/verification_report.h"
 #include "testbench/system/output_file.h"
 
@@ -38,10 +39,10 @@ class SeededBug : public ::testing::Test {
     ASSERT_NE(at, std::string::npos) << file << " has no " << correct;
     write_text(folder_ / "hw" / file, text.replace(at, correct.size(), broken));
   }
-  Verification run() {
+  VerificationResult run() {
     VerificationOptions options;
     options.rtl_sources = folder_ / "hw";
-    return verify(kScene, hardware_, options);
+    return verify(load_scene(kScene), hardware_, options);
   }
 
   fs::path folder_;
@@ -49,18 +50,14 @@ class SeededBug : public ::testing::Test {
 };
 
 TEST_F(SeededBug, NoneWithoutABug) {
-  const Verification v = run();
-  EXPECT_EQ(v.rtl.mismatches, 0U);
+  const VerificationResult v = run();
+  EXPECT_EQ(v.rtl.stream_mismatches, 0U);
   EXPECT_TRUE(v.passed());
 }
 
 TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
-  const Scene scene = load_scene(kScene);
-  const Geometry geometry = make_geometry(scene);
-  Hardware suited = hardware_;
-  suit_scene(suited, scene, geometry);
-  const ModelFrame model =
-      run_model(FrameSetup(scene, geometry, suited.datapath, suited.pipeline.depth_bits), geometry);
+  const PreparedFrame frame(load_scene(kScene), hardware_.formats, hardware_.setup);
+  const RecordedModel model = record_model(frame.setup);
   std::size_t brightest = 0;
   for (std::size_t i = 0; i < model.stream.size(); ++i) {
     if (model.stream[i].color > model.stream[brightest].color) brightest = i;
@@ -69,18 +66,18 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
   seed("pixel_datapath.sv", ".highlight_open(s2_open)",
        fmt::format(".highlight_open(s2_open ^ (s2_x == {} && s2_y == {}))", pixel.x, pixel.y));
 
-  const Verification v = run();
+  const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
-  EXPECT_EQ(v.systemc.mismatches, 0U);
-  EXPECT_EQ(v.rtl.mismatches, 1U);
+  EXPECT_EQ(v.systemc.stream_mismatches, 0U);
+  EXPECT_EQ(v.rtl.stream_mismatches, 1U);
   EXPECT_EQ(v.rtl.frame_mismatches, 1U);
-  ASSERT_TRUE(v.rtl.first.has_value());
-  EXPECT_EQ(v.rtl.first->place, brightest);
-  EXPECT_EQ(v.rtl.first->model, pixel);
-  EXPECT_LT(v.rtl.first->other.color, pixel.color);
-  const std::string report = report_text(v, false);
-  EXPECT_NE(report.find(fmt::format("triangle {}, x {}, y {}, cycle {}, seed 1",
-                                    v.rtl.first->triangle, pixel.x, pixel.y, v.rtl.first->cycle)),
+  ASSERT_TRUE(v.rtl.first_divergence.has_value());
+  EXPECT_EQ(v.rtl.first_divergence->stream_index, brightest);
+  EXPECT_EQ(v.rtl.first_divergence->model, pixel);
+  EXPECT_LT(v.rtl.first_divergence->found.color, pixel.color);
+  const std::string report = report_text(v, {});
+  EXPECT_NE(report.find(fmt::format("triangle {}, x {}, y {}, cycle {}, pixel",
+                                    v.rtl.first_divergence->triangle, pixel.x, pixel.y, v.rtl.first_divergence->cycle)),
             std::string::npos)
       << report;
   EXPECT_NE(report.find("FAILED"), std::string::npos);
@@ -89,24 +86,24 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
 TEST_F(SeededBug, LostPixelsDoNotHangTheHarness) {
   seed("pixel_datapath.sv", "wire fd_last = fd_remaining == 1;",
        "wire fd_last = fd_remaining == 1 || fd_remaining == 7;");
-  const Verification v = run();
+  const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
-  EXPECT_GT(v.rtl.mismatches, 0U);
-  EXPECT_NE(v.rtl.failure.find("nothing has moved"), std::string::npos) << v.rtl.failure;
+  EXPECT_GT(v.rtl.stream_mismatches, 0U);
+  EXPECT_NE(v.rtl.counts.failure.find("nothing has moved"), std::string::npos) << v.rtl.counts.failure;
 }
 
 TEST_F(SeededBug, ADeadDatapathIsReportedWithItsQueues) {
   seed("pixel_datapath.sv", "assign span_ready = ", "assign span_ready = 1'b0 && ");
-  const Verification v = run();
+  const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
-  EXPECT_NE(v.rtl.failure.find("span queue 8 of 8"), std::string::npos) << v.rtl.failure;
+  EXPECT_NE(v.rtl.counts.failure.find("span queue 8 of 8"), std::string::npos) << v.rtl.counts.failure;
 }
 
 TEST_F(SeededBug, ABubbleBetweenSpansIsFoundByTheCycles) {
   seed("pixel_datapath.sv", "assign span_ready = !fd_valid || (s1_ready && fd_last);",
        "assign span_ready = !fd_valid || (s1_ready && fd_last && 1'b0);");
-  const Verification v = run();
-  EXPECT_EQ(v.rtl.mismatches, 0U);
+  const VerificationResult v = run();
+  EXPECT_EQ(v.rtl.stream_mismatches, 0U);
   EXPECT_FALSE(v.same_cycles());
   EXPECT_FALSE(v.passed());
 }

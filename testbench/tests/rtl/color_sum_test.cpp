@@ -7,6 +7,7 @@
 #include <random>
 
 #include "Vcolor_sum_words.h"
+#include "testbench/cases/format_range.h"
 
 namespace phongpipe {
 namespace {
@@ -45,7 +46,7 @@ class ColorSumRtl : public ::testing::Test {
   }
   void expect_color(const Inputs& in) const {
     for (int bits = kMinRomDataBits; bits <= kMaxRomDataBits; ++bits) {
-      DatapathConfiguration configuration;
+      FrameConfiguration configuration;
       configuration.diffuse_fraction_bits = kDiffuseWidth - 10;
       configuration.rom_data_bits = bits;
       const auto word = static_cast<std::int32_t>(in.word & ((1U << bits) - 1));

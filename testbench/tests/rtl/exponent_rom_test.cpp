@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "Vexponent_rom_sizes.h"
+#include "testbench/cases/format_range.h"
 
 namespace phongpipe {
 namespace {
@@ -44,7 +45,7 @@ class ExponentRomRtl : public ::testing::Test {
   // What the model's address finds. A small table was overwritten by each larger address that ends
   // in the same bits.
   static std::uint32_t expected(int bits, std::int64_t v) {
-    DatapathConfiguration configuration;
+    FrameConfiguration configuration;
     configuration.rom_address_bits = bits;
     configuration.specular_fraction_bits = 1;
     const auto address =

@@ -19,9 +19,9 @@ RtlBuildOptions build_options() {
   return options;
 }
 
-DatapathConfiguration configured(int channels, int diffuse, int specular, int address, int data,
+FrameConfiguration configured(int channels, int diffuse, int specular, int address, int data,
                                  GateSource gate) {
-  DatapathConfiguration c;
+  FrameConfiguration c;
   c.channels = channels;
   c.diffuse_fraction_bits = diffuse;
   c.specular_fraction_bits = specular;
@@ -31,7 +31,7 @@ DatapathConfiguration configured(int channels, int diffuse, int specular, int ad
   return c;
 }
 
-DatapathConfiguration of_blocks(DatapathConfiguration c, bool diffuse, bool specular,
+FrameConfiguration of_blocks(FrameConfiguration c, bool diffuse, bool specular,
                                 bool depth_cue) {
   c.diffuse = diffuse;
   c.specular = specular;
@@ -60,7 +60,7 @@ std::vector<DatapathConfiguration> configurations() {
           of_blocks(configured(1, 4, 1, 6, 12, GateSource::off), true, true, true)};
 }
 
-std::string name_of(const DatapathConfiguration& c) {
+std::string name_of(const FrameConfiguration& c) {
   return fmt::format("c{}_d{}_s{}_a{}_w{}_g{}{}{}{}", c.channels, c.diffuse_fraction_bits,
                      c.specular_fraction_bits, c.rom_address_bits, c.rom_data_bits,
                      static_cast<int>(c.gate), c.diffuse ? "" : "_no_diffuse",
@@ -69,7 +69,7 @@ std::string name_of(const DatapathConfiguration& c) {
 
 class SpanSource {
  public:
-  SpanSource(const DatapathConfiguration& configuration, unsigned seed)
+  SpanSource(const FrameConfiguration& configuration, unsigned seed)
       : configuration_(configuration),
         random_(seed),
         table_(random_table(random_, configuration)) {}
@@ -79,7 +79,7 @@ class SpanSource {
   }
 
  private:
-  DatapathConfiguration configuration_;
+  FrameConfiguration configuration_;
   Random random_;
   HighlightTable table_;
 };
@@ -118,7 +118,7 @@ TEST_P(PixelDatapathRtl, ValuesEqualTheModelOnRandomSpans) {
   const std::uint64_t clocks = library_.interface().run(rtl.rtl(), kCueColor.data(), spans.data(),
                                                         spans.size(), pixels.data());
   // One pixel a clock, no bubbles between spans, and the latency once.
-  EXPECT_EQ(clocks, expected.size() + static_cast<std::size_t>(GetParam().latency()));
+  EXPECT_EQ(clocks, expected.size() + static_cast<std::size_t>(GetParam().latency_cycles()));
   for (std::size_t i = 0; i < expected.size(); ++i) {
     ASSERT_EQ(pixels[i].color, expected[i].color) << "pixel " << i;
     ASSERT_EQ(pixels[i].x, expected[i].x) << "pixel " << i;
@@ -179,7 +179,7 @@ TEST_P(PixelDatapathRtl, FirstPixelTakesExactlyTheLatency) {
   inputs.pixel_ready = true;
   ASSERT_TRUE(rtl.clock(inputs).span_ready);
   inputs.span = nullptr;
-  for (int clock = 1; clock < GetParam().latency(); ++clock) {
+  for (int clock = 1; clock < GetParam().latency_cycles(); ++clock) {
     EXPECT_FALSE(rtl.clock(inputs).pixel_valid) << "clock " << clock;
   }
   EXPECT_TRUE(rtl.clock(inputs).pixel_valid);

@@ -56,7 +56,7 @@ class RtlBuilder : public ::testing::Test {
     fs::permissions(folder_ / "tools" / tool, fs::perms(0755));
     setenv("PATH", ((folder_ / "tools").string() + ":" + search_path_).c_str(), 1);
   }
-  void build() const { build_rtl(DatapathConfiguration(), rtl(), library()); }
+  void build() const { build_rtl(FrameConfiguration(), rtl(), library()); }
   // One line, and nothing stays behind.
   template <typename Error = ToolError>
   void expect_failure(const std::string& message) const {
@@ -85,7 +85,7 @@ TEST_F(RtlBuilder, AnyPathsWillDo) {
   RtlBuildOptions options;
   options.sources = sources;
   options.destination = kept;
-  const RtlLibrary library(DatapathConfiguration(), options);
+  const RtlLibrary library(FrameConfiguration(), options);
   EXPECT_EQ(library.file().parent_path(), kept);
   void* const datapath = library.interface().create();
   EXPECT_NE(datapath, nullptr);
@@ -103,7 +103,7 @@ TEST_F(RtlBuilder, ALibraryIsNamedByTheContentsAndNamesOfItsSources) {
   const auto libraries_after_loading_from = [&](const fs::path& sources) {
     options.sources = sources;
     try {
-      const RtlLibrary library(DatapathConfiguration(), options);
+      const RtlLibrary library(FrameConfiguration(), options);
       ADD_FAILURE() << "an empty library was loaded";
     } catch (const ToolError& error) {
       EXPECT_NE(std::string(error.what()).find("remove the file to have it built anew"),
@@ -172,7 +172,7 @@ TEST_F(RtlBuilder, AFolderWithoutRtlIsBadInput) {
 TEST_F(RtlBuilder, ACacheThatCannotBeWrittenIsNamed) {
   std::ofstream(folder_ / "file") << "in the way";
   try {
-    build_rtl(DatapathConfiguration(), rtl(), folder_ / "file" / "cache" / "library.so");
+    build_rtl(FrameConfiguration(), rtl(), folder_ / "file" / "cache" / "library.so");
     FAIL() << "it was built";
   } catch (const ToolError& error) {
     EXPECT_NE(std::string(error.what()).find("cache: RTL cannot be built there: Not a directory"),

@@ -33,11 +33,11 @@ struct Elaborated {
   }
 };
 
-Elaborated simulate_apart(const FrameSetup& frame, const Geometry& geometry, Detail detail) {
+Elaborated simulate_apart(const FrameSetup& frame, Detail detail) {
   Child child([&] {
     SimulationOptions options;
     options.detail = detail;
-    const SimulationResult result = simulate(frame, geometry, PipelineConfiguration(), options);
+    const SimulationResult result = simulate(frame, PipelineConfiguration(), options);
     std::ostringstream text;
     const PixelOperations& pixel = result.pixel_operations;
     text << pixel.additions << ' ' << pixel.multiplications << ' ' << pixel.reads << ' '
@@ -53,7 +53,7 @@ Elaborated simulate_apart(const FrameSetup& frame, const Geometry& geometry, Det
 }
 
 void expect_blocks(const Elaborated& e, const FrameSetup& frame) {
-  const DatapathConfiguration& c = frame.configuration;
+  const FrameConfiguration& c = frame.configuration;
   EXPECT_EQ(e.count("diffuse_series"), c.diffuse ? c.channels : 0);
   EXPECT_EQ(e.count("color_sum"), c.channels);
   EXPECT_EQ(e.count("specular_series"), c.specular);
@@ -72,9 +72,9 @@ class DatapathBlocksOf : public testing::TestWithParam<Detail> {
       Random random(seed);
       const RandomEffects e = random_effects(random);
       SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));
-      const DatapathConfiguration suited =
-          suit_scene(e.configuration, e.scene, e.geometry, effects);
-      check(FrameSetup(e.scene, e.geometry, suited, 24, effects), e.geometry);
+      const FrameConfiguration suited =
+          with_derived_blocks(e.configuration, e.scene, e.geometry, effects);
+      check(FrameSetup(e.scene, e.geometry, suited, effects), e.geometry);
       if (HasFailure()) return;
     }
   }
@@ -82,16 +82,16 @@ class DatapathBlocksOf : public testing::TestWithParam<Detail> {
 
 TEST_P(DatapathBlocksOf, AScenesEffectsAreElaboratedAndNoOthers) {
   for_each_scene(Effects::derived, [](const FrameSetup& frame, const Geometry& geometry) {
-    expect_blocks(simulate_apart(frame, geometry, GetParam()), frame);
+    expect_blocks(simulate_apart(frame, GetParam()), frame);
   });
 }
 
 TEST_P(DatapathBlocksOf, EverythingExecutesEveryAdderAndMultiplierForEveryPixel) {
   for_each_scene(Effects::all, [](const FrameSetup& frame, const Geometry& geometry) {
-    const Elaborated e = simulate_apart(frame, geometry, GetParam());
+    const Elaborated e = simulate_apart(frame, GetParam());
     expect_blocks(e, frame);
-    const DatapathConfiguration& c = frame.configuration;
-    const std::uint64_t pixels = run_model(frame, geometry).stream.size();
+    const FrameConfiguration& c = frame.configuration;
+    const std::uint64_t pixels = run_model(frame).pixels;
     EXPECT_EQ(e.pixel.additions, static_cast<std::uint64_t>(c.adders()) * pixels);
     EXPECT_EQ(e.pixel.multiplications, static_cast<std::uint64_t>(c.multipliers()) * pixels);
     EXPECT_EQ(e.pixel.reads, pixels);
@@ -101,9 +101,9 @@ TEST_P(DatapathBlocksOf, EverythingExecutesEveryAdderAndMultiplierForEveryPixel)
 
 TEST_P(DatapathBlocksOf, AScenesOwnHardwareExecutesNoMore) {
   for_each_scene(Effects::derived, [](const FrameSetup& frame, const Geometry& geometry) {
-    const Elaborated e = simulate_apart(frame, geometry, GetParam());
-    const DatapathConfiguration& c = frame.configuration;
-    const std::uint64_t pixels = run_model(frame, geometry).stream.size();
+    const Elaborated e = simulate_apart(frame, GetParam());
+    const FrameConfiguration& c = frame.configuration;
+    const std::uint64_t pixels = run_model(frame).pixels;
     EXPECT_LE(e.pixel.additions, static_cast<std::uint64_t>(c.adders()) * pixels);
     EXPECT_EQ(e.pixel.multiplications, static_cast<std::uint64_t>(c.multipliers()) * pixels);
     EXPECT_LE(e.pixel.reads, c.specular ? pixels : 0);
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Pipeline, DatapathBlocksOf, testing::Values(Detail::spa
 
 // A span that steps nothing and shows no highlight executes no addition.
 TEST(DatapathBlocks, ExecuteNothingForASpanOfAmbientLight) {
-  DatapathConfiguration c;
+  FrameConfiguration c;
   c.channels = 3;
   DatapathBlocks blocks(c);
   Span span;

@@ -56,7 +56,7 @@ class DatapathPipelineTest : public testing::Test {
   }
 
   Random random_;
-  DatapathConfiguration configuration_;
+  FrameConfiguration configuration_;
   HighlightTable table_;
   DatapathPipeline pipeline_;
   PixelDatapath values_;
@@ -149,9 +149,9 @@ TEST_F(DatapathPipelineTest, ResetInMidRunDropsPixelsAndKeepsTheTable) {
 TEST(DatapathDriver, LoadsATableOnlyWhenEmptyAndOneWordAClock) {
   Random random(kSeed);
   const Scene scene = lit_scene(64, 64);
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.rom_address_bits = 6;
-  const FrameSetup frame(scene, random_geometry(random, scene, 1, 20), configuration, 24);
+  const FrameSetup frame(scene, random_geometry(random, scene, 1, 20), configuration);
   DatapathPipeline pipeline(configuration);
   DatapathDriver driver(frame, pipeline);
   std::vector<Span> spans(3);

@@ -24,39 +24,39 @@ using Colors = std::vector<std::uint32_t>;
 // One way to give a frame's picture.
 struct Account {
   const char* name;
-  std::function<Colors(const FrameSetup&, const Geometry&)> picture;
+  std::function<Colors(const FrameSetup&)> picture;
   unsigned seeds;
 };
 
-Colors simulated(const FrameSetup& frame, const Geometry& geometry, Detail detail) {
+Colors simulated(const FrameSetup& frame, Detail detail) {
   SimulationOptions options;
   options.detail = detail;
-  const Trace trace = simulate_apart(frame, geometry, PipelineConfiguration(), options);
-  EXPECT_EQ(trace.failure, "");
+  const Trace trace = simulate_apart(frame, PipelineConfiguration(), options);
+  EXPECT_EQ(trace.counts.failure, "");
   return trace.colors;
 }
 
 const Account kAccounts[] = {
-    {"Model", [](const FrameSetup& f, const Geometry& g) { return run_model(f, g).colors(); },
+    {"Model", [](const FrameSetup& f) { return run_model(f).colors(); },
      kModelSeeds},
-    {"BySpan", [](const FrameSetup& f, const Geometry& g) { return simulated(f, g, Detail::span); },
+    {"BySpan", [](const FrameSetup& f) { return simulated(f, Detail::span); },
      kSimulatedSeeds},
     {"ByCycle",
-     [](const FrameSetup& f, const Geometry& g) { return simulated(f, g, Detail::cycle); },
+     [](const FrameSetup& f) { return simulated(f, Detail::cycle); },
      kSimulatedSeeds}};
 
 // `same`: whether a random scene's picture is the same in two ways.
 class Picture : public testing::TestWithParam<Account> {
  protected:
   Colors picture(const Scene& scene, const Geometry& geometry,
-                 const DatapathConfiguration& configuration,
+                 const FrameConfiguration& configuration,
                  Effects effects = Effects::derived) const {
-    const FrameSetup frame(scene, geometry, configuration, kDepthBits, effects);
-    return GetParam().picture(frame, geometry);
+    const FrameSetup frame(scene, geometry, configuration, effects);
+    return GetParam().picture(frame);
   }
   // As a user's scene is: by the hardware that suits it.
   Colors picture(const RandomEffects& e) const {
-    return picture(e.scene, e.geometry, suit_scene(e.configuration, e.scene, e.geometry));
+    return picture(e.scene, e.geometry, with_derived_blocks(e.configuration, e.scene, e.geometry));
   }
 
   void for_each_scene(const std::function<void(Random&, RandomEffects)>& check,
@@ -80,8 +80,8 @@ void expect_same(const Colors& a, const Colors& b) {
 
 TEST_P(Picture, IsTheSameByHardwareThatHasEverything) {
   for_each_scene([&](Random&, const RandomEffects& e) {
-    const DatapathConfiguration all =
-        suit_scene(e.configuration, e.scene, e.geometry, Effects::all);
+    const FrameConfiguration all =
+        with_derived_blocks(e.configuration, e.scene, e.geometry, Effects::all);
     expect_same(picture(e), picture(e.scene, e.geometry, all, Effects::all));
   });
 }
@@ -89,7 +89,7 @@ TEST_P(Picture, IsTheSameByHardwareThatHasEverything) {
 TEST_P(Picture, WithoutSpecularColorNeedsNoHighlight) {
   for_each_scene([&](Random&, RandomEffects e) {
     for (Material& material : e.geometry.materials) material.specular = Color::Zero();
-    DatapathConfiguration with = e.configuration, without = e.configuration;
+    FrameConfiguration with = e.configuration, without = e.configuration;
     with.specular = true;
     without.specular = false;
     with.depth_cue = without.depth_cue = e.scene.depth_cue.has_value();
@@ -101,11 +101,11 @@ TEST_P(Picture, WithoutSpecularColorNeedsNoHighlight) {
 TEST_P(Picture, WithoutDiffuseColorNeedsNoDiffuseSeries) {
   for_each_scene([&](Random&, RandomEffects e) {
     for (Material& material : e.geometry.materials) material.diffuse = Color::Zero();
-    DatapathConfiguration with = e.configuration;
+    FrameConfiguration with = e.configuration;
     with.diffuse = true;
     with.depth_cue = e.scene.depth_cue.has_value();
     if (with.gate == GateSource::diffuse) with.gate = GateSource::series;
-    DatapathConfiguration without = with;
+    FrameConfiguration without = with;
     without.diffuse = false;
     expect_same(picture(e.scene, e.geometry, with, Effects::all),
                 picture(e.scene, e.geometry, without, Effects::all));
@@ -125,8 +125,8 @@ TEST_P(Picture, WhereEverythingHasFadedIsOfTheCuesColor) {
   for_each_scene([&](Random&, RandomEffects e) {
     e.scene.depth_cue = DepthCue{1, 2, Color(0.2, 0.4, 1)};
     const Colors colors = picture(e);
-    const FrameSetup frame(e.scene, e.geometry, e.configuration, kDepthBits);
-    const ModelFrame model = run_model(frame, e.geometry);
+    const FrameSetup frame(e.scene, e.geometry, e.configuration);
+    const ModelFrame model = run_model(frame);
     for (std::size_t i = 0; i < colors.size(); ++i) {
       if (!model.framebuffer.covered(i)) continue;
       ASSERT_EQ(colors[i], 0xff6633U) << "pixel " << i;  // 51, 102, 255
@@ -174,7 +174,7 @@ TEST_P(Picture, OfTwoHalvesOfALightIsThatOfTheLight) {
 
 // For each pixel, whether two triangles share the nearest depth.
 std::vector<bool> ties(const FrameSetup& frame, const Geometry& geometry) {
-  const FrontEnd front_end(frame, geometry);
+  const FrontEnd front_end(frame);
   std::map<std::size_t, std::uint32_t> nearest;
   std::vector<bool> tied(static_cast<std::size_t>(frame.width) *
                          static_cast<std::size_t>(frame.height));
@@ -201,7 +201,7 @@ TEST_P(Picture, DoesNotDependOnTheOrderOfTriangles) {
   for_each_scene([&](Random& random, RandomEffects e) {
     const Colors ordered = picture(e);
     const std::vector<bool> tied = ties(
-        FrameSetup(e.scene, e.geometry, e.configuration, kDepthBits, Effects::all), e.geometry);
+        FrameSetup(e.scene, e.geometry, e.configuration, Effects::all), e.geometry);
     std::vector<ScreenTriangle>& triangles = e.geometry.triangles;
     for (std::size_t i = triangles.size(); i > 1; --i) {
       std::swap(triangles[i - 1],

@@ -9,6 +9,7 @@
 #include "model/files/scene_file.h"
 #include "model/fixed/front_end.h"
 #include "model/fixed/model_frame.h"
+#include "model/fixed/prepared_frame.h"
 #include "model/scene/subdivision.h"
 #include "model/shading/phong.h"
 #include "sim/pipeline.h"
@@ -25,18 +26,12 @@ class Prepared {
  public:
   using Change = std::function<void(Scene&)>;
   explicit Prepared(const std::string& name, const Change& change = {})
-      : scene_(changed(name, change)),
-        hardware_(load_hardware("default", {})),
-        geometry_(subdivide(scene_, make_geometry(scene_), hardware_.datapath.subdivide_degrees)
-                      .geometry) {}
+      : scene_(changed(name, change)), hardware_(load_hardware("default", {})) {}
 
-  const Geometry& geometry() const { return geometry_; }
-  const Scene& scene() const { return scene_; }
-  FrameSetup frame(Effects effects = Effects::derived) const {
-    Hardware suited = hardware_;
-    suit_scene(suited, scene_, geometry_, effects);
-    return {scene_, geometry_, suited.datapath, suited.pipeline.depth_bits, effects};
+  PreparedFrame frame(Effects effects = Effects::derived) const {
+    return PreparedFrame(scene_, hardware_.formats, hardware_.setup, effects);
   }
+  const Scene& scene() const { return scene_; }
 
  private:
   static Scene changed(const std::string& name, const Change& change) {
@@ -47,13 +42,12 @@ class Prepared {
 
   Scene scene_;
   Hardware hardware_;
-  Geometry geometry_;
 };
 
 // Everything that is set up, pass by pass.
-void for_each_setup(const FrameSetup& frame, const Geometry& geometry,
+void for_each_setup(const FrameSetup& frame,
                     const std::function<void(SetupOutcome, const TriangleWork&)>& visit) {
-  const FrontEnd front_end(frame, geometry);
+  const FrontEnd front_end(frame);
   TriangleWork work;
   for (TriangleOrder next(front_end); !next.done(); next.advance()) {
     const SetupOutcome outcome = front_end.set_up(next.triangle(), next.pass(), work);
@@ -79,11 +73,11 @@ struct Executed {
   std::string modules;
 };
 
-Executed execute(const FrameSetup& frame, const Geometry& geometry, Detail detail = Detail::span) {
+Executed execute(const FrameSetup& frame, Detail detail = Detail::span) {
   Child child([&] {
     SimulationOptions options;
     options.detail = detail;
-    const SimulationResult result = simulate(frame, geometry, PipelineConfiguration(), options);
+    const SimulationResult result = simulate(frame, PipelineConfiguration(), options);
     std::ostringstream text;
     text << total(result.setup_operations) << ' ' << result.pixel_operations.additions << ' '
          << result.pixel_operations.reads << ' ' << result.rom_load_cycles;
@@ -103,7 +97,8 @@ class OperationsOf {
   std::size_t operator()(const SeriesPlan& plan) { return total(times_.of(plan).operations); }
   // What would be executed for this without tests and without the highlight.
   std::size_t without_highlight(SeriesPlan plan) {
-    plan.specular = plan.gate_series = plan.dim = plan.flat_highlight = false;
+    plan.specular = plan.gate = SeriesForm::absent;
+    plan.highlight_invisible = false;
     return (*this)(untested(plan));
   }
   static SeriesPlan untested(SeriesPlan plan) {
@@ -126,10 +121,11 @@ class SharpPawn : public testing::TestWithParam<int> {
 
 // All tests are paid for, those of light too, and all that they save counts.
 TEST_P(SharpPawn, HalfTheHighlightsSetupIsSavedTestsIncluded) {
-  const FrameSetup frame = pawn_.frame();
+  const PreparedFrame prepared = pawn_.frame();
+  const FrameSetup& frame = prepared.setup;
   OperationsOf operations;
   std::size_t full = 0, highlights = 0, executed = 0, more = 0;
-  for_each_setup(frame, pawn_.geometry(), [&](SetupOutcome, const TriangleWork& work) {
+  for_each_setup(frame, [&](SetupOutcome, const TriangleWork& work) {
     const SeriesPlan &whole = work.setup.material->plan, &own = work.setup.plan;
     full += operations(OperationsOf::untested(whole));
     highlights += operations(OperationsOf::untested(whole)) - operations.without_highlight(whole);
@@ -140,14 +136,15 @@ TEST_P(SharpPawn, HalfTheHighlightsSetupIsSavedTestsIncluded) {
   EXPECT_GE((static_cast<double>(full) - static_cast<double>(executed)) / of_highlights, 0.5);
   // Of the highlight alone, though it pays for all tests.
   EXPECT_GE(1 - static_cast<double>(more) / of_highlights, 0.5);
-  EXPECT_EQ(executed, execute(frame, pawn_.geometry()).setup) << "the simulation counts the same";
+  EXPECT_EQ(executed, execute(frame).setup) << "the simulation counts the same";
 }
 
 TEST_P(SharpPawn, HalfTheHighlightsStepsAndReadsAreSaved) {
-  const FrameSetup frame = pawn_.frame();
+  const PreparedFrame prepared = pawn_.frame();
+  const FrameSetup& frame = prepared.setup;
   std::uint64_t pixels = 0, stepped = 0, read = 0;
   const SpanWalker walker(frame);
-  for_each_setup(frame, pawn_.geometry(), [&](SetupOutcome, const TriangleWork& work) {
+  for_each_setup(frame, [&](SetupOutcome, const TriangleWork& work) {
     for (const RowSpan& row : work.rows) {
       const auto length = static_cast<std::uint64_t>(row.length);
       const Span span = walker.start(work.setup, row);
@@ -158,17 +155,17 @@ TEST_P(SharpPawn, HalfTheHighlightsStepsAndReadsAreSaved) {
   });
   EXPECT_LE(2 * stepped, pixels);
   EXPECT_LE(2 * read, pixels);
-  const Executed own = execute(frame, pawn_.geometry());
-  const Executed all = execute(pawn_.frame(Effects::all), pawn_.geometry());
+  const Executed own = execute(frame);
+  const Executed all = execute(pawn_.frame(Effects::all).setup);
   EXPECT_EQ(own.pixel.reads, read);
   EXPECT_EQ(all.pixel.reads, pixels);
 }
 
 // Everything has three channels, of which the pawn's are alike.
 TEST_P(SharpPawn, LooksAsIfNothingWereLeftOut) {
-  std::vector<std::uint32_t> own = run_model(pawn_.frame(), pawn_.geometry()).colors();
+  std::vector<std::uint32_t> own = run_model(pawn_.frame().setup).colors();
   for (std::uint32_t& color : own) color *= 0x010101;
-  EXPECT_TRUE(own == run_model(pawn_.frame(Effects::all), pawn_.geometry()).colors());
+  EXPECT_TRUE(own == run_model(pawn_.frame(Effects::all).setup).colors());
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, SharpPawn, testing::Values(512, 2048));
@@ -177,8 +174,9 @@ class ElisionIn : public testing::TestWithParam<Detail> {};
 
 TEST_P(ElisionIn, ADiffuseSceneHasNoHighlightAnywhere) {
   const Prepared diffuse("effects/diffuse");
-  const FrameSetup frame = diffuse.frame();
-  const Executed executed = execute(frame, diffuse.geometry(), GetParam());
+  const PreparedFrame prepared = diffuse.frame();
+  const FrameSetup& frame = prepared.setup;
+  const Executed executed = execute(frame, GetParam());
   for (const char* module : {"specular_series", "exponent_rom", "gate_series"}) {
     EXPECT_EQ(executed.modules.find(module), std::string::npos) << executed.modules;
   }
@@ -189,10 +187,10 @@ TEST_P(ElisionIn, ADiffuseSceneHasNoHighlightAnywhere) {
   OperationsOf operations;
   std::size_t setup = 0;
   std::uint64_t steps = 0;
-  for_each_setup(frame, diffuse.geometry(), [&](SetupOutcome, const TriangleWork& work) {
-    EXPECT_FALSE(work.setup.plan.specular || work.setup.plan.bound_highlight);
+  for_each_setup(frame, [&](SetupOutcome, const TriangleWork& work) {
+    EXPECT_FALSE(is_present(work.setup.plan.specular) || work.setup.plan.bound_highlight);
     setup += operations(work.setup.plan);
-    if (work.setup.plan.diffuse) steps += 2 * pixels_of(work);
+    if (is_present(work.setup.plan.diffuse)) steps += 2 * pixels_of(work);
   });
   EXPECT_EQ(executed.setup, setup);
   EXPECT_EQ(executed.pixel.additions, steps);
@@ -201,11 +199,13 @@ TEST_P(ElisionIn, ADiffuseSceneHasNoHighlightAnywhere) {
 // No step, no more than the highlight's sum and one read for each pixel.
 TEST_P(ElisionIn, PlanesHaveNoSteps) {
   const Prepared planes("two-planes");
-  const FrameSetup frame = planes.frame();
-  const Executed executed = execute(frame, planes.geometry(), GetParam());
+  const PreparedFrame prepared = planes.frame();
+  const FrameSetup& frame = prepared.setup;
+  const Executed executed = execute(frame, GetParam());
   std::uint64_t pixels = 0;
-  for_each_setup(frame, planes.geometry(), [&](SetupOutcome, const TriangleWork& work) {
-    EXPECT_TRUE(work.setup.plan.flat_light && work.setup.plan.flat_highlight);
+  for_each_setup(frame, [&](SetupOutcome, const TriangleWork& work) {
+    EXPECT_EQ(work.setup.plan.light(), SeriesForm::constant);
+    EXPECT_EQ(work.setup.plan.specular, SeriesForm::constant);
     pixels += pixels_of(work);
   });
   EXPECT_EQ(executed.pixel.reads, pixels);
@@ -221,13 +221,14 @@ INSTANTIATE_TEST_SUITE_P(Pipeline, ElisionIn, testing::Values(Detail::span, Deta
 // of a sphere and a torus most of those that do are.
 TEST(Elision, DropsTrianglesThatFaceAwayFromAFurtherLight) {
   const Prepared lights("effects/two-lights");
-  const FrameSetup frame = lights.frame();
-  const ModelFrame model = run_model(frame, lights.geometry());
+  const PreparedFrame prepared = lights.frame();
+  const FrameSetup& frame = prepared.setup;
+  const ModelFrame model = run_model(frame);
   std::size_t dropped = 0, facing_away = 0, set_up = 0;
-  for_each_setup(frame, lights.geometry(), [&](SetupOutcome outcome, const TriangleWork& work) {
+  for_each_setup(frame, [&](SetupOutcome outcome, const TriangleWork& work) {
     ++set_up;
     if (work.setup.pass == 0) return;
-    const ScreenTriangle& triangle = lights.geometry().triangles[work.setup.triangle];
+    const ScreenTriangle& triangle = prepared.geometry().triangles[work.setup.triangle];
     double highest = -1;
     for (const ScreenVertex& vertex : triangle.vertices) {
       highest =
@@ -239,10 +240,10 @@ TEST(Elision, DropsTrianglesThatFaceAwayFromAFurtherLight) {
       EXPECT_LE(highest, 0) << "triangle " << work.setup.triangle;
     }
   });
-  EXPECT_EQ(model.triangles_dropped, dropped);
-  EXPECT_EQ(model.triangles_set_up, set_up);
+  EXPECT_EQ(model.triangles.left_out, dropped);
+  EXPECT_EQ(model.triangles.set_up, set_up);
   EXPECT_GT(dropped, facing_away * 8 / 10);
-  EXPECT_TRUE(model.colors() == run_model(lights.frame(Effects::all), lights.geometry()).colors());
+  EXPECT_TRUE(model.colors() == run_model(lights.frame(Effects::all).setup).colors());
 }
 
 // Triangles whose corners have one normal: their series are T0 alone, and its bits are those that
@@ -270,29 +271,29 @@ TEST(Elision, OfFlatTrianglesLeavesTheBitsOfT0) {
       scene.lights.front().direction = -geometry.triangles[0].vertices[0].normal.normalized();
       for (Material& material : geometry.materials) material.diffuse = Color::Constant(1.0 / 32);
     }
-    DatapathConfiguration c;
+    FrameConfiguration c;
     c.series_fit = static_cast<SeriesFit>(random.integer(1, 3));
     c.anchor = random.integer(0, 1) == 0 ? Anchor::triangle : Anchor::span;
     if (seed % 3 == 0) c.anchor = Anchor::triangle;
     c.diffuse_fraction_bits = seed % 3 == 0 ? 4 : 16;
     c.gate = random.integer(0, 1) == 0 ? GateSource::diffuse : GateSource::series;
-    const FrameSetup own(scene, geometry, c, 24), all(scene, geometry, c, 24, Effects::all);
+    const FrameSetup own(scene, geometry, c), all(scene, geometry, c, Effects::all);
     for (std::uint32_t t = 0; t < geometry.triangles.size(); ++t) {
       TriangleWork work;
-      if (FrontEnd(own, geometry).set_up(t, 0, work) != SetupOutcome::ready) continue;
+      if (FrontEnd(own).set_up(t, 0, work) != SetupOutcome::ready) continue;
       const TriangleSetup some = work.setup;
-      FrontEnd(all, geometry).set_up(t, 0, work);
+      FrontEnd(all).set_up(t, 0, work);
       const TriangleSetup whole = work.setup;
       const auto expect_same = [&](const FixedQuadratic& a, const FixedQuadratic& b) {
         EXPECT_EQ(a.t0, b.t0);
         for (const std::int64_t higher : {a.t1, a.t2, a.t3, a.t4, a.t5}) ASSERT_EQ(higher, 0);
       };
-      if (some.plan.flat_light && some.plan.diffuse) {
+      if (some.plan.diffuse == SeriesForm::constant) {
         ++flat;
         expect_same(some.diffuse[0], whole.diffuse[0]);
       }
-      if (some.plan.flat_light && some.plan.gate_series) expect_same(some.gate, whole.gate);
-      if (some.plan.flat_highlight) expect_same(some.specular, whole.specular);
+      if (some.plan.gate == SeriesForm::constant) expect_same(some.gate, whole.gate);
+      if (some.plan.specular == SeriesForm::constant) expect_same(some.specular, whole.specular);
       ASSERT_FALSE(::testing::Test::HasFailure());
     }
   }
@@ -321,16 +322,16 @@ class CoarseRegisters : public testing::TestWithParam<Anchor> {
 
   // Draws both ways; whether the own way leaves out what `left_out` asks for.
   template <typename LeftOut>
-  static bool agrees(const Scene& scene, const Geometry& geometry, const DatapathConfiguration& c,
+  static bool agrees(const Scene& scene, const Geometry& geometry, const FrameConfiguration& c,
                      LeftOut left_out) {
-    const FrameSetup own(scene, geometry, c, 24), all(scene, geometry, c, 24, Effects::all);
-    EXPECT_TRUE(run_model(own, geometry).colors() == run_model(all, geometry).colors());
+    const FrameSetup own(scene, geometry, c), all(scene, geometry, c, Effects::all);
+    EXPECT_TRUE(run_model(own).colors() == run_model(all).colors());
     TriangleWork work;
-    return FrontEnd(own, geometry).set_up(0, 0, work) == SetupOutcome::ready &&
+    return FrontEnd(own).set_up(0, 0, work) == SetupOutcome::ready &&
            left_out(work.setup.plan);
   }
-  static DatapathConfiguration configuration(Random& random) {
-    DatapathConfiguration c;
+  static FrameConfiguration configuration(Random& random) {
+    FrameConfiguration c;
     c.anchor = GetParam();
     c.series_fit = static_cast<SeriesFit>(random.integer(1, 3));
     return c;
@@ -352,7 +353,7 @@ TEST_P(CoarseRegisters, LeaveOutNoLightThatRoundingLetsThrough) {
     }
     geometry.triangles = {triangle_below(random, scene, -scene.lights.front().direction,
                                          -std::pow(10, random.uniform(-6, -0.5)))};
-    DatapathConfiguration c = configuration(random);
+    FrameConfiguration c = configuration(random);
     c.channels = 3;
     c.diffuse_fraction_bits = random.integer(4, 12);
     // A level that the least number more rounds to the next LSB.
@@ -363,7 +364,7 @@ TEST_P(CoarseRegisters, LeaveOutNoLightThatRoundingLetsThrough) {
              : random.integer(0, 2) == 0       ? GateSource::off
                                                : GateSource::diffuse;
     dark += agrees(scene, geometry, c,
-                   [](const SeriesPlan& plan) { return !plan.diffuse && !plan.gate_series; });
+                   [](const SeriesPlan& plan) { return !is_present(plan.light()); });
     ASSERT_FALSE(HasFailure());
   }
   EXPECT_GT(dark, kSeeds / 20);
@@ -380,13 +381,13 @@ TEST_P(CoarseRegisters, LeaveOutNoHighlightThatRoundingShows) {
     Geometry geometry;
     geometry.materials = {grey_material(0.3, 1, random.uniform(5, 200))};
     geometry.triangles.resize(1);
-    DatapathConfiguration c = configuration(random);
+    FrameConfiguration c = configuration(random);
     c.specular_fraction_bits = random.integer(1, 10);
-    const MaterialSetup material = FrameSetup(scene, geometry, c, 24).materials.front();
+    const MaterialSetup material = FrameSetup(scene, geometry, c).materials.front();
     const double least = material.first_visible_address / material.light.specular_scale;
     geometry.triangles = {triangle_below(random, scene, material.light.terms.halfway,
                                          least - std::pow(10, random.uniform(-6, -0.5)))};
-    dim += agrees(scene, geometry, c, [](const SeriesPlan& plan) { return !plan.specular; });
+    dim += agrees(scene, geometry, c, [](const SeriesPlan& plan) { return !is_present(plan.specular); });
     ASSERT_FALSE(HasFailure());
   }
   EXPECT_GT(dim, kSeeds / 20);

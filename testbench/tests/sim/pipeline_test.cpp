@@ -12,18 +12,19 @@
 #include "model/scene/input_error.h"
 #include "sim/datapath_pipeline.h"
 #include "testbench/cases/random_effects.h"
+#include "testbench/cases/recorded_model.h"
 #include "testbench/tests/sim/simulations.h"
 
 namespace phongpipe {
 namespace {
 
 void expect_same(const Trace& by_span, const Trace& by_clock) {
-  EXPECT_EQ(by_span.failure, "");
-  EXPECT_EQ(by_clock.failure, "");
-  EXPECT_EQ(by_span.setup_cycles, by_clock.setup_cycles);
-  EXPECT_EQ(by_span.rom_load_cycles, by_clock.rom_load_cycles);
-  EXPECT_EQ(by_span.datapath_cycles, by_clock.datapath_cycles);
-  EXPECT_EQ(by_span.frame_cycles, by_clock.frame_cycles);
+  EXPECT_EQ(by_span.counts.failure, "");
+  EXPECT_EQ(by_clock.counts.failure, "");
+  EXPECT_EQ(by_span.counts.setup_cycles, by_clock.counts.setup_cycles);
+  EXPECT_EQ(by_span.counts.rom_load_cycles, by_clock.counts.rom_load_cycles);
+  EXPECT_EQ(by_span.counts.datapath_cycles, by_clock.counts.datapath_cycles);
+  EXPECT_EQ(by_span.counts.frame_cycles, by_clock.counts.frame_cycles);
   EXPECT_TRUE(by_span.colors == by_clock.colors);
   ASSERT_EQ(by_span.stream.size(), by_clock.stream.size());
   ASSERT_EQ(by_span.cycles.size(), by_clock.cycles.size());
@@ -33,26 +34,26 @@ void expect_same(const Trace& by_span, const Trace& by_clock) {
   }
 }
 
-void expect_model(const Trace& trace, const ModelFrame& model) {
+void expect_model(const Trace& trace, const RecordedModel& model) {
   EXPECT_TRUE(trace.stream == model.stream);
   EXPECT_TRUE(trace.colors == model.colors());
 }
 
 // With and without a ClockedDatapath in place of the closed form by the span.
-void expect_agreement(const FrameSetup& frame, const Geometry& geometry,
-                      const PipelineConfiguration& configuration, SimulationOptions options) {
-  const Trace by_span = simulate_apart(frame, geometry, configuration, options);
+void expect_agreement(const FrameSetup& frame, const PipelineConfiguration& configuration,
+                      SimulationOptions options) {
+  const Trace by_span = simulate_apart(frame, configuration, options);
   options.detail = Detail::cycle;
-  const Trace by_clock = simulate_apart(frame, geometry, configuration, options);
+  const Trace by_clock = simulate_apart(frame, configuration, options);
   DatapathPipeline datapath(frame.configuration, frame.cue_color);
   options.datapath = &datapath;
   options.detail = Detail::span;
-  const Trace clocked_by_span = simulate_apart(frame, geometry, configuration, options);
+  const Trace clocked_by_span = simulate_apart(frame, configuration, options);
   ASSERT_FALSE(by_span.stream.empty()) << "nothing is drawn";
-  expect_model(by_span, run_model(frame, geometry));
+  expect_model(by_span, record_model(frame));
   expect_same(by_span, by_clock);
   expect_same(clocked_by_span, by_clock);
-  EXPECT_EQ(clocked_by_span.busy_cycles, by_clock.busy_cycles);
+  EXPECT_EQ(clocked_by_span.counts.datapath_busy_cycles, by_clock.counts.datapath_busy_cycles);
 }
 
 class OfScene : public testing::TestWithParam<const char*> {};
@@ -60,13 +61,13 @@ class OfScene : public testing::TestWithParam<const char*> {};
 TEST_P(OfScene, BySpanIsByCycle) {
   const Scene scene = load_scene(std::string(PHONGPIPE_SCENES "/") + GetParam() + ".toml");
   const Geometry geometry = make_geometry(scene);
-  DatapathConfiguration datapath;
+  FrameConfiguration datapath;
   datapath.channels = is_grey(scene, geometry) ? 1 : 3;
-  const FrameSetup frame(scene, geometry, suit_scene(datapath, scene, geometry), 24);
+  const FrameSetup frame(scene, geometry, with_derived_blocks(datapath, scene, geometry));
   SimulationOptions options;
-  expect_agreement(frame, geometry, PipelineConfiguration(), options);
+  expect_agreement(frame, PipelineConfiguration(), options);
   options.stall_percent = 20;
-  expect_agreement(frame, geometry, PipelineConfiguration(), options);
+  expect_agreement(frame, PipelineConfiguration(), options);
 }
 
 std::string scene_name(const testing::TestParamInfo<const char*>& info) {
@@ -104,13 +105,13 @@ TEST(Pipeline, BySpanIsByCycleForAnyConfiguration) {
     const Scene scene = lit_scene(96, 64);
     const Geometry geometry =
         random_geometry(random, scene, random.integer(1, 40), random.uniform(2, 20));
-    DatapathConfiguration datapath;
+    FrameConfiguration datapath;
     datapath.rom_address_bits = 6;  // short loads, so that other waits show
-    const FrameSetup frame(scene, geometry, datapath, 24);
+    const FrameSetup frame(scene, geometry, datapath);
     SimulationOptions options;
     options.stall_percent = random.integer(0, 1) * random.integer(1, 60);
     options.stall_seed = seed;
-    expect_agreement(frame, geometry, random_pipeline(random), options);
+    expect_agreement(frame, random_pipeline(random), options);
     if (HasFailure()) return;
   }
 }
@@ -124,11 +125,11 @@ TEST(Pipeline, BySpanIsByCycleForAnyEffects) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));
     const Effects effects = random.integer(0, 3) > 0 ? Effects::derived : Effects::all;
     const FrameSetup frame(e.scene, e.geometry,
-                           suit_scene(e.configuration, e.scene, e.geometry, effects), 24, effects);
+                           with_derived_blocks(e.configuration, e.scene, e.geometry, effects), effects);
     SimulationOptions options;
     options.stall_percent = random.integer(0, 1) * random.integer(1, 60);
     options.stall_seed = seed;
-    expect_agreement(frame, e.geometry, random_pipeline(random), options);
+    expect_agreement(frame, random_pipeline(random), options);
     if (HasFailure()) return;
   }
 }
@@ -136,13 +137,13 @@ TEST(Pipeline, BySpanIsByCycleForAnyEffects) {
 TEST(Pipeline, AnEmptyFrameTakesNoTime) {
   const Scene scene = lit_scene(16, 16);
   const Geometry geometry;
-  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24);
+  const FrameSetup frame(scene, geometry, FrameConfiguration());
   for (const Detail detail : {Detail::span, Detail::cycle}) {
     SimulationOptions options;
     options.detail = detail;
-    const Trace trace = simulate_apart(frame, geometry, PipelineConfiguration(), options);
-    EXPECT_EQ(trace.failure, "");
-    EXPECT_EQ(trace.frame_cycles, 0);
+    const Trace trace = simulate_apart(frame, PipelineConfiguration(), options);
+    EXPECT_EQ(trace.counts.failure, "");
+    EXPECT_EQ(trace.counts.frame_cycles, 0);
     EXPECT_TRUE(trace.stream.empty());
   }
 }
@@ -153,13 +154,13 @@ TEST(Pipeline, EachChangeOfTableLoadsIt) {
   Geometry geometry = random_geometry(random, scene, 5, 15);
   const std::array<std::uint32_t, 5> materials = {1, 1, 0, 0, 1};
   for (std::size_t i = 0; i < 5; ++i) geometry.triangles[i].material = materials[i];
-  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24);
+  const FrameSetup frame(scene, geometry, FrameConfiguration());
   for (const Detail detail : {Detail::span, Detail::cycle}) {
     SimulationOptions options;
     options.detail = detail;
-    const Trace trace = simulate_apart(frame, geometry, PipelineConfiguration(), options);
-    EXPECT_EQ(trace.rom_load_cycles, 3 * 1024);
-    EXPECT_GT(trace.datapath_cycles, 3 * 1024);
+    const Trace trace = simulate_apart(frame, PipelineConfiguration(), options);
+    EXPECT_EQ(trace.counts.rom_load_cycles, 3 * 1024);
+    EXPECT_GT(trace.counts.datapath_cycles, 3 * 1024);
   }
 }
 
@@ -167,11 +168,11 @@ TEST(Pipeline, SimulatesOnceAProcess) {
   Random random(67);
   const Scene scene = lit_scene(16, 16);
   const Geometry geometry = random_geometry(random, scene, 1, 5);
-  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24);
+  const FrameSetup frame(scene, geometry, FrameConfiguration());
   Child child([&] {
-    simulate(frame, geometry, PipelineConfiguration(), {});
+    simulate(frame, PipelineConfiguration(), {});
     try {
-      simulate(frame, geometry, PipelineConfiguration(), {});
+      simulate(frame, PipelineConfiguration(), {});
     } catch (const std::logic_error& error) {
       return std::string("refused: ") + error.what();
     }

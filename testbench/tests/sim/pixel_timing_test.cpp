@@ -42,7 +42,7 @@ Times closed_form(const std::vector<Arrival>& arrivals, int depth) {
 
 Times clock_by_clock(const std::vector<Arrival>& arrivals, int depth) {
   Times times;
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   DatapathPipeline datapath(configuration);
   HighlightTable table;
   table.roms.emplace_back(configuration, 0.5, 20);

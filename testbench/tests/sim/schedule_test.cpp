@@ -171,7 +171,7 @@ TEST(Schedule, OfDiffuseLightAloneHasNoOperationOfTheHighlight) {
   for (const SeriesFit fit : kFits) {
     for (const bool local_viewer : {false, true}) {
       SeriesPlan plan;
-      plan.specular = false;
+      plan.specular = SeriesForm::absent;
       plan.form.local_viewer = local_viewer;  // whose halfway vectors nothing needs
       plan.form.fit = fit;
       const OperationCounts needed = recorded([&] {
@@ -182,13 +182,13 @@ TEST(Schedule, OfDiffuseLightAloneHasNoOperationOfTheHighlight) {
             .light.scaled(light.diffuse_scale[0]);
       });
       EXPECT_TRUE(record_setup(plan).counts() == needed) << "fit " << static_cast<int>(fit);
-      plan.specular = true;
+      plan.specular = SeriesForm::fitted;
       EXPECT_GT(record_setup(plan).counts().multiply, needed.multiply);
     }
   }
   // By hand for Taylor's: 1/|det| and 1/|C|, and no more.
   SeriesPlan plan;
-  plan.specular = false;
+  plan.specular = SeriesForm::absent;
   EXPECT_EQ(record_setup(plan).counts().rsqrt, 2U);
 }
 
@@ -197,7 +197,7 @@ TEST(Schedule, OfAHighlightAloneHasNoOperationOfDiffuseLight) {
   const LightInput<Recorded> light{};
   for (const SeriesFit fit : kFits) {
     SeriesPlan plan;
-    plan.diffuse = false;
+    plan.diffuse = SeriesForm::absent;
     plan.form.fit = fit;
     const OperationCounts needed = recorded([&] {
       const Interpolator<Recorded> interpolate(triangle.x, triangle.y);
@@ -207,7 +207,7 @@ TEST(Schedule, OfAHighlightAloneHasNoOperationOfDiffuseLight) {
           .highlight.scaled(light.specular_scale);
     });
     EXPECT_TRUE(record_setup(plan).counts() == needed) << "fit " << static_cast<int>(fit);
-    plan.gate_series = true;  // needs N·L
+    plan.gate = SeriesForm::fitted;  // needs N·L
     EXPECT_GT(record_setup(plan).counts().multiply, needed.multiply);
   }
 }
@@ -218,12 +218,12 @@ TEST(Schedule, OfAmbientLightAloneInterpolatesOnly) {
     return recorded([&] {
       const Interpolator<Recorded> interpolate(triangle.x, triangle.y);
       if (depth) interpolate(triangle.z[0], triangle.z[1], triangle.z[2]);
-      const auto& share = triangle.own_share;
+      const auto& share = triangle.cue_factor;
       if (depth_cue) interpolate(share[0], share[1], share[2]);
     });
   };
   SeriesPlan plan;
-  plan.diffuse = plan.specular = false;
+  plan.diffuse = plan.specular = SeriesForm::absent;
   for (const bool depth : {false, true}) {
     for (const bool depth_cue : {false, true}) {
       plan.depth = depth;
@@ -238,8 +238,8 @@ TEST(Schedule, WhatAPlanLeavesOutSavesTime) {
   SetupTimes times(units);
   SeriesPlan full, no_depth, diffuse_only, ambient_only;
   no_depth.depth = false;
-  diffuse_only.specular = false;
-  ambient_only.specular = ambient_only.diffuse = false;
+  diffuse_only.specular = SeriesForm::absent;
+  ambient_only.specular = ambient_only.diffuse = SeriesForm::absent;
   EXPECT_GT(times.of(full).cycles, times.of(diffuse_only).cycles);
   EXPECT_GT(times.of(diffuse_only).cycles, times.of(ambient_only).cycles);
   EXPECT_GE(times.of(full).cycles, times.of(no_depth).cycles);

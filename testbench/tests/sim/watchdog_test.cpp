@@ -33,9 +33,9 @@ class Watchdog : public testing::TestWithParam<Detail> {
     Random random(71);
     const Scene scene = lit_scene(64, 64);
     const Geometry geometry = random_geometry(random, scene, 30, 15);
-    DatapathConfiguration configuration;
+    FrameConfiguration configuration;
     configuration.rom_address_bits = 6;
-    const FrameSetup frame(scene, geometry, configuration, 24);
+    const FrameSetup frame(scene, geometry, configuration);
     PipelineConfiguration pipeline;
     pipeline.span_fifo = 5;
     pipeline.framebuffer_write_cycles = pipeline.framebuffer_test_cycles = framebuffer_cycles;
@@ -43,7 +43,7 @@ class Watchdog : public testing::TestWithParam<Detail> {
     options.detail = GetParam();
     options.datapath = datapath;
     options.watchdog_cycles = watchdog_cycles;
-    return simulate_apart(frame, geometry, pipeline, options).failure;
+    return simulate_apart(frame, pipeline, options).counts.failure;
   }
 };
 
@@ -73,7 +73,7 @@ TEST_P(Watchdog, ReportsADatapathThatLosesPixels) {
 
 TEST_P(Watchdog, LeavesASlowPipelineAlone) {
   DatapathPipeline datapath([] {
-    DatapathConfiguration configuration;
+    FrameConfiguration configuration;
     configuration.rom_address_bits = 6;
     return configuration;
   }());

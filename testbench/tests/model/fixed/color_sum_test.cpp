@@ -6,31 +6,33 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "testbench/cases/format_range.h"
+
 namespace phongpipe {
 namespace {
 
-DatapathConfiguration formats(int data_bits, int diffuse_fraction) {
-  DatapathConfiguration configuration;
+FrameConfiguration formats(int data_bits, int diffuse_fraction) {
+  FrameConfiguration configuration;
   configuration.rom_data_bits = data_bits;
   configuration.diffuse_fraction_bits = diffuse_fraction;
   return configuration;
 }
 
 // min(255, ⌊max(diffuse, level) + word⌋), with 2^−40 output LSB as the unit and nothing cut off.
-int exact_color(const DatapathConfiguration& c, std::int64_t diffuse, std::int64_t level,
+int exact_color(const FrameConfiguration& c, std::int64_t diffuse, std::int64_t level,
                 std::int32_t word) {
   const std::int64_t series = std::max(diffuse, level) << (40 - c.diffuse_fraction_bits);
   const std::int64_t highlight = std::int64_t{word} << (40 + kOutputBits - c.rom_data_bits);
   return static_cast<int>(std::min<std::int64_t>((series + highlight) >> 40, kOutputMax));
 }
 
-int color_of(const DatapathConfiguration& c, std::int64_t diffuse, std::int64_t level,
+int color_of(const FrameConfiguration& c, std::int64_t diffuse, std::int64_t level,
              std::int32_t word) {
   return color_sum(c, clamped_diffuse(c, diffuse, level), aligned_word(c, word));
 }
 
 // Every diffuse value of the register, with the words at the ends and in steps between.
-void expect_exact(const DatapathConfiguration& c, std::int64_t level, std::int32_t word_step) {
+void expect_exact(const FrameConfiguration& c, std::int64_t level, std::int32_t word_step) {
   const std::int64_t end = std::int64_t{1} << (c.diffuse_width() - 1);
   const std::int32_t last = (1 << c.rom_data_bits) - 1;
   for (std::int64_t diffuse = -end; diffuse < end; ++diffuse) {
@@ -48,7 +50,7 @@ void expect_exact(const DatapathConfiguration& c, std::int64_t level, std::int32
 
 TEST(ColorSum, IsExactForEveryDiffuseValueAndWordSize) {
   for (int data_bits = kMinRomDataBits; data_bits <= kMaxRomDataBits; ++data_bits) {
-    const DatapathConfiguration c = formats(data_bits, kMinDiffuseFraction);
+    const FrameConfiguration c = formats(data_bits, kMinDiffuseFraction);
     const std::int32_t words = 1 << data_bits;
     const std::int32_t step = std::max(1, words / 61);  // 61: prime, so that low bits vary
     expect_exact(c, 8, step);                           // the rounding half alone
@@ -64,7 +66,7 @@ TEST(ColorSum, IsExactForEveryWordOfAByte) {
 TEST(ColorSum, SaturatesAndNeverWraps) {
   for (int data_bits = kMinRomDataBits; data_bits <= kMaxRomDataBits; ++data_bits) {
     for (const int fraction : {kMinDiffuseFraction, 16, kMaxDiffuseFraction}) {
-      const DatapathConfiguration c = formats(data_bits, fraction);
+      const FrameConfiguration c = formats(data_bits, fraction);
       const std::int64_t end = std::int64_t{1} << (c.diffuse_width() - 1);
       const std::int64_t half = std::int64_t{1} << (fraction - 1);
       const std::int32_t last = (1 << data_bits) - 1;
@@ -79,7 +81,7 @@ TEST(ColorSum, SaturatesAndNeverWraps) {
 
 // With the half folded in, 12.5 LSB of ambient light and above show as 13.
 TEST(ColorSum, ClampsAtTheLevelWhichIsRoundedToNearest) {
-  const DatapathConfiguration c = formats(8, 16);
+  const FrameConfiguration c = formats(8, 16);
   const auto ambient = [](double lsb) { return static_cast<std::int64_t>((lsb + 0.5) * 65536); };
   EXPECT_EQ(color_of(c, -1000000, ambient(12.49), 0), 12);
   EXPECT_EQ(color_of(c, -1000000, ambient(12.5), 0), 13);

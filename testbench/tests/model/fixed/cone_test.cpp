@@ -155,8 +155,8 @@ TEST(Cone, OutsideAPictureIsThatWithoutTheLight) {
     Light spot = random_spot(random);
     spot.spot_cutoff_degrees = random.uniform(5, 40);
     const auto frame_of = [&geometry](const Scene& described, const auto& visit) {
-      const FrameSetup frame(described, geometry, DatapathConfiguration(), 24);
-      visit(frame, run_model(frame, geometry));
+      const FrameSetup frame(described, geometry, FrameConfiguration());
+      visit(frame, run_model(frame));
     };
     const auto colors = [&](const Scene& described) {
       std::vector<std::uint32_t> result;

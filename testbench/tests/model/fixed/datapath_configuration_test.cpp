@@ -7,6 +7,7 @@
 #include <string>
 
 #include "model/scene/input_error.h"
+#include "testbench/cases/format_range.h"
 
 namespace phongpipe {
 namespace {
@@ -109,11 +110,11 @@ TEST(DatapathConfiguration, BlocksLeftOutCostNothing) {
   EXPECT_EQ(c.series(), 0);
   EXPECT_EQ(c.adders(), 0);
   EXPECT_EQ(c.multipliers(), 0);
-  EXPECT_EQ(c.latency(), kDatapathLatency);
+  EXPECT_EQ(c.latency_cycles(), kDatapathLatency);
   c.depth_cue = true;
   EXPECT_EQ(c.adders(), 7) << "a linear series, a difference and a sum a channel";
   EXPECT_EQ(c.multipliers(), 3);
-  EXPECT_EQ(c.latency(), kDatapathLatency + 1);
+  EXPECT_EQ(c.latency_cycles(), kDatapathLatency + 1);
   c.specular = true;
   EXPECT_EQ(c.series(), 2) << "N·H and the gate";
   EXPECT_EQ(c.adders(), 4 + 3 + 7);

@@ -8,12 +8,14 @@
 #include <cmath>
 #include <string>
 
+#include "testbench/cases/format_range.h"
+
 namespace phongpipe {
 namespace {
 
-DatapathConfiguration table(int address_bits, int data_bits = 8,
+FrameConfiguration table(int address_bits, int data_bits = 8,
                             IndexRounding rounding = IndexRounding::nearest) {
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.rom_address_bits = address_bits;
   configuration.rom_data_bits = data_bits;
   configuration.index_rounding = rounding;
@@ -21,13 +23,13 @@ DatapathConfiguration table(int address_bits, int data_bits = 8,
 }
 
 // 2^data_bits · 255/256 is full scale: a word is in units of 2^−(data_bits − 8) output LSB.
-long double exact_word(const DatapathConfiguration& c, double specular, double n, int address) {
+long double exact_word(const FrameConfiguration& c, double specular, double n, int address) {
   const long double offset = c.index_rounding == IndexRounding::nearest ? 0.5L : 0.0L;
   const long double x = (address + offset) / (1L << c.rom_address_bits);
   return 255.0L / 256 * (1L << c.rom_data_bits) * specular * std::pow(x, (long double){n});
 }
 
-void expect_every_word(const DatapathConfiguration& c, double specular, double n) {
+void expect_every_word(const FrameConfiguration& c, double specular, double n) {
   const ExponentRom rom(c, specular, n);
   ASSERT_EQ(rom.words().size(), std::size_t{1} << c.rom_address_bits);
   const std::int32_t largest = (1 << c.rom_data_bits) - 1;
@@ -49,7 +51,7 @@ TEST(ExponentRom, EveryWordOfEverySizeIsRounded) {
   for (int address_bits = kMinRomAddressBits; address_bits <= kMaxRomAddressBits; ++address_bits) {
     for (int data_bits = kMinRomDataBits; data_bits <= kMaxRomDataBits; ++data_bits) {
       for (const IndexRounding rounding : {IndexRounding::nearest, IndexRounding::truncate}) {
-        const DatapathConfiguration c = table(address_bits, data_bits, rounding);
+        const FrameConfiguration c = table(address_bits, data_bits, rounding);
         for (const double n : {1.0, 20.0, 164.0}) {
           expect_every_word(c, 1, n);
           expect_every_word(c, 0.3125, n);  // exact: 0.3 would be decided by its own rounding
@@ -60,7 +62,7 @@ TEST(ExponentRom, EveryWordOfEverySizeIsRounded) {
 }
 
 TEST(ExponentRom, WordsSaturateAboveFullScale) {
-  const DatapathConfiguration c = table(8, 8);
+  const FrameConfiguration c = table(8, 8);
   const ExponentRom rom(c, 2.5, 1);
   EXPECT_EQ(rom.words().back(), 255);
   EXPECT_EQ(rom.words()[0], 1);  // 255 · 2.5 · 0.5/256 = 1.25
@@ -77,7 +79,7 @@ TEST(ExponentRom, WithoutExponentEveryWordIsFullScale) {
 TEST(ExponentRom, AddressSaturatesAtTheExtremesOfEveryFormat) {
   for (int address_bits = kMinRomAddressBits; address_bits <= kMaxRomAddressBits; ++address_bits) {
     for (int fraction = kMinSpecularFraction; fraction <= kMaxSpecularFraction; ++fraction) {
-      DatapathConfiguration c = table(address_bits);
+      FrameConfiguration c = table(address_bits);
       c.specular_fraction_bits = fraction;
       const std::int64_t full_scale = std::int64_t{1} << (address_bits + fraction);
       const std::int64_t one = std::int64_t{1} << fraction;  // address
@@ -119,7 +121,7 @@ TEST(ExponentRom, LargestErrorIsWhatADenseSamplingFinds) {
   for (const int address_bits : {6, 8, 10}) {
     for (const double n : {0.5, 1.0, 20.0, 164.0}) {
       for (const IndexRounding rounding : {IndexRounding::nearest, IndexRounding::truncate}) {
-        const DatapathConfiguration c = table(address_bits, 8, rounding);
+        const FrameConfiguration c = table(address_bits, 8, rounding);
         const double bound = ExponentRom::largest_error(c, n);
         const int words = c.rom_words();
         double sampled = 0;

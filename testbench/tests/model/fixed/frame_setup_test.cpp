@@ -25,7 +25,7 @@ std::string refusal(const std::function<void(Scene&)>& change) {
   scene.source = "ball.toml";
   change(scene);
   try {
-    FrameSetup(scene, one_material(Material()), DatapathConfiguration(), 24);
+    FrameSetup(scene, one_material(Material()), FrameConfiguration());
   } catch (const InputError& error) {
     return error.what();
   }
@@ -60,7 +60,7 @@ TEST(FrameSetup, RefusesAnExponentOfZeroUnderALightThatFades) {
   blunt.name = "blunt";
   blunt.shininess = 0;
   const auto set_up = [&] {
-    return FrameSetup(scene, one_material(blunt), DatapathConfiguration(), 24).passes;
+    return FrameSetup(scene, one_material(blunt), FrameConfiguration()).passes;
   };
   EXPECT_EQ(set_up(), 1U);
   fading(scene);
@@ -77,9 +77,9 @@ TEST(FrameSetup, RefusesAnExponentOfZeroUnderALightThatFades) {
 }
 
 TEST(FrameSetup, ChecksItsConfiguration) {
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.rom_data_bits = 13;
-  EXPECT_THROW(FrameSetup(lit_scene(8, 8), Geometry(), configuration, 24), InputError);
+  EXPECT_THROW(FrameSetup(lit_scene(8, 8), Geometry(), configuration), InputError);
 }
 
 TEST(FrameSetup, ScalesAndLevelsOfAMaterial) {
@@ -90,10 +90,10 @@ TEST(FrameSetup, ScalesAndLevelsOfAMaterial) {
   scene.image.background = Color(0, 0.5, 1);
   Material material = grey_material(0.6, 0.5, 2);
   material.ambient = Color(0.2, 0.1, 0.7);
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.channels = 3;
   configuration.diffuse_fraction_bits = 8;
-  const FrameSetup frame(scene, one_material(material), configuration, 24);
+  const FrameSetup frame(scene, one_material(material), configuration);
   ASSERT_EQ(frame.materials.size(), 1U);
   const MaterialSetup& setup = frame.materials[0];
   EXPECT_DOUBLE_EQ(setup.light.diffuse_scale[0], 255 * 0.6);
@@ -118,7 +118,7 @@ TEST(FrameSetup, ScalesAndLevelsOfAMaterial) {
 TEST(FrameSetup, LookingIntoTheLightThereIsNoHighlight) {
   Scene scene = lit_scene(64, 64);
   scene.lights[0].direction = Vec3(0, 0, 1);  // the eye looks along −z
-  const FrameSetup frame(scene, one_material(Material()), DatapathConfiguration(), 24);
+  const FrameSetup frame(scene, one_material(Material()), FrameConfiguration());
   EXPECT_EQ(frame.materials[0].light.terms.halfway.norm(), 0);
 }
 
@@ -134,7 +134,7 @@ TEST(FrameSetup, MaterialsThatDifferInDiffuseColorOnlyShareATable) {
                          of_materials({grey_material(0.6, 0.3, 20), grey_material(0.2, 0.3, 20),
                                        grey_material(0.6, 0.3, 21), grey_material(0.6, 0.4, 20),
                                        grey_material(0.1, 0.3, 20)}),
-                         DatapathConfiguration(), 24);
+                         FrameConfiguration());
   EXPECT_EQ(frame.tables.size(), 3U);
   std::vector<std::uint32_t> tables;
   for (const MaterialSetup& material : frame.materials) tables.push_back(material.table);
@@ -149,29 +149,28 @@ TEST(FrameSetup, EachColorOfLightHasItsTable) {
   scene.lights[1].direction = Vec3(0, 0, -1);
   scene.lights[2].color = Color::Constant(0.5);
   scene.lights[3].color = Color::Zero();
-  const FrameSetup frame(scene, one_material(grey_material(0.6, 0.3, 20)), DatapathConfiguration(),
-                         24);
+  const FrameSetup frame(scene, one_material(grey_material(0.6, 0.3, 20)), FrameConfiguration());
   EXPECT_EQ(frame.passes, 4U);
   ASSERT_EQ(frame.tables.size(), 2U) << "the first two share theirs, the last has no highlight";
   EXPECT_EQ(frame.material(0, 0).table, 0U);
   EXPECT_EQ(frame.material(1, 0).table, 0U);
   EXPECT_EQ(frame.material(2, 0).table, 1U);
   EXPECT_EQ(frame.tables[1].specular[0], 0.15);
-  EXPECT_FALSE(frame.material(3, 0).plan.specular);
-  EXPECT_FALSE(frame.material(3, 0).plan.diffuse);
+  EXPECT_FALSE(is_present(frame.material(3, 0).plan.specular));
+  EXPECT_FALSE(is_present(frame.material(3, 0).plan.diffuse));
 }
 
 TEST(FrameSetup, NothingShinyHasNoTable) {
   const Scene scene = lit_scene(8, 8);
   const Geometry matt = one_material(grey_material(0.6, 0, 20));
-  EXPECT_TRUE(FrameSetup(scene, matt, DatapathConfiguration(), 24).tables.empty());
-  EXPECT_EQ(FrameSetup(scene, matt, DatapathConfiguration(), 24, Effects::all).tables.size(), 1U);
+  EXPECT_TRUE(FrameSetup(scene, matt, FrameConfiguration()).tables.empty());
+  EXPECT_EQ(FrameSetup(scene, matt, FrameConfiguration(), Effects::all).tables.size(), 1U);
 }
 
 TEST(FrameSetup, AmbientLightComesWithTheFirstPassOnly) {
   Scene scene = lit_scene(8, 8);
   scene.lights.resize(2, scene.lights[0]);
-  const FrameSetup frame(scene, one_material(Material()), DatapathConfiguration(), 24);
+  const FrameSetup frame(scene, one_material(Material()), FrameConfiguration());
   EXPECT_EQ(frame.material(0, 0).level[0], 26 << 16);  // 25.5 and the rounding half
   EXPECT_EQ(frame.material(1, 0).level[0], 1 << 15);
 }
@@ -180,18 +179,19 @@ TEST(FrameSetup, EachMaterialsPlanHasItsOwnSeriesOnly) {
   const Scene scene = lit_scene(8, 8);
   const Geometry geometry = of_materials({grey_material(0.6, 0.3, 20), grey_material(0.6, 0, 20),
                                           grey_material(0, 0.3, 20), grey_material(0, 0, 20)});
-  const DatapathConfiguration suited = suit_scene({}, scene, geometry);
+  const FrameConfiguration suited = with_derived_blocks({}, scene, geometry);
   ASSERT_EQ(suited.gate, GateSource::series);
-  const FrameSetup derived(scene, geometry, suited, 24);
-  const FrameSetup all(scene, geometry, suited, 24, Effects::all);
+  const FrameSetup derived(scene, geometry, suited);
+  const FrameSetup all(scene, geometry, suited, Effects::all);
   for (std::uint32_t m = 0; m < 4; ++m) {
     const SeriesPlan& plan = derived.material(0, m).plan;
-    EXPECT_EQ(plan.diffuse, m < 2) << "material " << m;
-    EXPECT_EQ(plan.specular, m % 2 == 0) << "material " << m;
-    EXPECT_EQ(plan.gate_series, m % 2 == 0) << "material " << m;
+    EXPECT_EQ(is_present(plan.diffuse), m < 2) << "material " << m;
+    EXPECT_EQ(is_present(plan.specular), m % 2 == 0) << "material " << m;
+    EXPECT_EQ(is_present(plan.gate), m % 2 == 0) << "material " << m;
     EXPECT_FALSE(plan.depth || plan.depth_cue);
     const SeriesPlan& whole = all.material(0, m).plan;
-    EXPECT_TRUE(whole.diffuse && whole.specular && whole.gate_series && whole.depth);
+    EXPECT_TRUE(is_present(whole.diffuse) && is_present(whole.specular) &&
+                is_present(whole.gate) && whole.depth);
   }
 }
 
@@ -216,7 +216,7 @@ TEST(FrameSetup, DepthIsTestedWhereAPixelIsCoveredTwice) {
   scene.lights.resize(2, scene.lights[0]);
   Geometry geometry = split_quad();
   const auto tested = [&](Effects effects) {
-    const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24, effects);
+    const FrameSetup frame(scene, geometry, FrameConfiguration(), effects);
     EXPECT_EQ(frame.material(0, 0).plan.depth, frame.depth_test);
     EXPECT_FALSE(frame.material(1, 0).plan.depth) << "the owner decides for further lights";
     return frame.depth_test;
@@ -238,10 +238,12 @@ TEST(FrameSetup, DepthSpansTheTriangles) {
   for (ScreenTriangle& triangle : geometry.triangles) {
     for (ScreenVertex& vertex : triangle.vertices) vertex.z = 5;
   }
-  EXPECT_EQ(FrameSetup(scene, geometry, DatapathConfiguration(), 16).depth_scale, 0);
+  FrameConfiguration configuration;
+  configuration.depth_bits = 16;
+  EXPECT_EQ(FrameSetup(scene, geometry, configuration).depth_scale, 0);
   geometry.triangles[1].vertices[2].z = 3;
   geometry.triangles[2].vertices[0].z = 7;
-  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 16);
+  const FrameSetup frame(scene, geometry, configuration);
   EXPECT_EQ(frame.depth_offset, 3);
   EXPECT_EQ((7 - frame.depth_offset) * frame.depth_scale, 65535);
 }
@@ -285,12 +287,12 @@ TEST(SuitScene, BuildsTheBlocksTheSceneNeeds) {
     Scene scene = lit_scene(8, 8);
     if (depth_cue) scene.depth_cue = DepthCue{1, 2, Color::Zero()};
     const Geometry geometry = one_material(grey_material(diffuse, specular, 20));
-    const DatapathConfiguration suited = suit_scene({}, scene, geometry);
+    const FrameConfiguration suited = with_derived_blocks({}, scene, geometry);
     EXPECT_EQ(suited.diffuse, diffuse > 0);
     EXPECT_EQ(suited.specular, specular > 0);
     EXPECT_EQ(suited.depth_cue, depth_cue);
     EXPECT_NO_THROW(suited.check());
-    const DatapathConfiguration all = suit_scene({}, scene, geometry, Effects::all);
+    const FrameConfiguration all = with_derived_blocks({}, scene, geometry, Effects::all);
     EXPECT_TRUE(all.diffuse && all.specular && all.depth_cue);
     EXPECT_EQ(all.gate, suited.gate);
     EXPECT_NO_THROW(all.check());
@@ -302,19 +304,19 @@ TEST(SuitScene, WhatNoLightShowsIsLeftOut) {
   scene.lights[0].color = Color(0, 1, 1);
   Material red = grey_material(0, 0, 20);
   red.diffuse = red.specular = Color(0.5, 0, 0);
-  DatapathConfiguration suited = suit_scene({}, scene, one_material(red));
+  FrameConfiguration suited = with_derived_blocks({}, scene, one_material(red));
   EXPECT_FALSE(suited.diffuse || suited.specular);
   scene.lights.emplace_back();  // white
-  suited = suit_scene({}, scene, one_material(red));
+  suited = with_derived_blocks({}, scene, one_material(red));
   EXPECT_TRUE(suited.diffuse && suited.specular);
 }
 
 TEST(SuitScene, GivesTheGateASeriesWhereDiffuseCannotTell) {
   Scene scene = lit_scene(8, 8);
   const auto gate = [&scene](const Geometry& geometry, GateSource chosen) {
-    DatapathConfiguration configuration;
+    FrameConfiguration configuration;
     configuration.gate = chosen;
-    return suit_scene(configuration, scene, geometry).gate;
+    return with_derived_blocks(configuration, scene, geometry).gate;
   };
   const Geometry usual = one_material(grey_material(0.5, 0.5, 20));
   const Geometry blind = one_material(grey_material(0, 0.5, 20));

@@ -14,9 +14,10 @@ namespace {
 FrameSetup small_frame(int channels = 3, int depth_bits = 8) {
   Scene scene = lit_scene(4, 3);
   scene.image.background = Color(0.2, 0.5, 1);
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.channels = channels;
-  return FrameSetup(scene, Geometry(), configuration, depth_bits);
+  configuration.depth_bits = depth_bits;
+  return FrameSetup(scene, Geometry(), configuration);
 }
 
 TEST(Framebuffer, StartsAsBackground) {
@@ -59,9 +60,10 @@ TEST(Framebuffer, WritesOnePixelAndTheFarthestDepthBeatsTheBackground) {
 Framebuffer under_two_lights(bool depth_test) {
   Scene scene = lit_scene(4, 3);
   scene.lights.resize(2);
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.channels = 3;
-  return Framebuffer(FrameSetup(scene, Geometry(), configuration, 8,
+  configuration.depth_bits = 8;
+  return Framebuffer(FrameSetup(scene, Geometry(), configuration,
                                 depth_test ? Effects::all : Effects::derived));
 }
 

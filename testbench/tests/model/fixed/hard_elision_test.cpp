@@ -21,12 +21,12 @@ ScreenVertex vertex(double x, double y, const Vec3& normal) {
 
 void expect_same_picture(const Scene& scene, const Geometry& geometry,
                          GateSource gate = GateSource::diffuse) {
-  DatapathConfiguration chosen;
+  FrameConfiguration chosen;
   chosen.series_fit = SeriesFit::weighted;
   chosen.gate = gate;
   const auto picture = [&](Effects effects) {
-    const DatapathConfiguration suited = suit_scene(chosen, scene, geometry, effects);
-    return run_model(FrameSetup(scene, geometry, suited, 24, effects), geometry).colors();
+    const FrameConfiguration suited = with_derived_blocks(chosen, scene, geometry, effects);
+    return run_model(FrameSetup(scene, geometry, suited, effects)).colors();
   };
   EXPECT_EQ(picture(Effects::derived), picture(Effects::all));
 }
@@ -98,7 +98,7 @@ TEST(HardElision, ALightOnAVertex) {
   triangle.vertices[1].position = Vec3(0, -1, 0.1);
   triangle.vertices[2].position = Vec3(1, 0, 0.1);
   geometry.triangles = {triangle};
-  const FrameSetup frame(scene, geometry, suit_scene({}, scene, geometry), 24);
+  const FrameSetup frame(scene, geometry, with_derived_blocks({}, scene, geometry));
   for (const ExponentRom& rom : frame.tables[0].roms) {
     for (const std::int32_t word : rom.words()) EXPECT_TRUE(word >= 0 && word <= kOutputMax);
   }

@@ -11,6 +11,7 @@
 
 #include "model/fixed/front_end.h"
 #include "testbench/cases/random_frame.h"
+#include "testbench/cases/recorded_model.h"
 
 namespace phongpipe {
 namespace {
@@ -57,13 +58,13 @@ void expect_drift_within_bound(Anchor anchor) {
   for (const double size : {4.0, 20.0, 100.0}) {
     const Scene scene = lit_scene(300, 300);
     const Geometry geometry = random_geometry(random, scene, 60, size);
-    DatapathConfiguration configuration;
+    FrameConfiguration configuration;
     configuration.anchor = anchor;
     configuration.diffuse_fraction_bits = random.integer(8, 24);
     configuration.specular_fraction_bits = random.integer(6, 20);
-    const FrameSetup frame(scene, geometry, configuration, 24);
-    const FrontEnd front_end(frame, geometry);
-    const SetupEngine engine(frame, geometry);
+    const FrameSetup frame(scene, geometry, configuration);
+    const FrontEnd front_end(frame);
+    const SetupEngine engine(frame);
     TriangleWork work;
     for (std::uint32_t i = 0; i < front_end.triangles(); ++i) {
       if (front_end.set_up(i, 0, work) != SetupOutcome::ready) continue;
@@ -100,17 +101,17 @@ TEST(ModelFrame, IsTheSameHoweverItIsEvaluated) {
   for (const int channels : {1, 3}) {
     const Scene scene = lit_scene(160, 120);
     const Geometry geometry = random_geometry(random, scene, 80, 25);
-    DatapathConfiguration configuration;
+    FrameConfiguration configuration;
     configuration.channels = channels;
-    const FrameSetup frame(scene, geometry, configuration, 24);
-    const ModelFrame stepping = run_model(frame, geometry, Evaluation::stepping);
+    const FrameSetup frame(scene, geometry, configuration);
+    const RecordedModel stepping = record_model(frame, Evaluation::stepping);
     for (const Evaluation evaluation : {Evaluation::portable, best_evaluation()}) {
-      const ModelFrame other = run_model(frame, geometry, evaluation);
+      const RecordedModel other = record_model(frame, evaluation);
       EXPECT_EQ(other.stream.size(), stepping.stream.size());
       EXPECT_TRUE(other.stream == stepping.stream);
       EXPECT_EQ(other.colors(), stepping.colors());
-      EXPECT_EQ(other.triangles_set_up, stepping.triangles_set_up);
-      EXPECT_EQ(other.coefficient_overflows, stepping.coefficient_overflows);
+      EXPECT_EQ(other.triangles.set_up, stepping.triangles.set_up);
+      EXPECT_EQ(other.triangles.overflows, stepping.triangles.overflows);
     }
   }
 }
@@ -121,13 +122,13 @@ TEST(ModelFrame, TwoMaterialsAreShadedAsEachAlone) {
   Random random(kSeed);
   const Scene scene = lit_scene(160, 120);
   const Geometry geometry = random_geometry(random, scene, 40, 25);
-  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24);
-  const ModelFrame together = run_model(frame, geometry);
+  const FrameSetup frame(scene, geometry, FrameConfiguration());
+  const RecordedModel together = record_model(frame);
   std::vector<ShadedPixel> one_by_one;
   for (const ScreenTriangle& triangle : geometry.triangles) {
     Geometry alone = geometry;
     alone.triangles = {triangle};
-    const ModelFrame part = run_model(FrameSetup(scene, alone, DatapathConfiguration(), 24), alone);
+    const RecordedModel part = record_model(FrameSetup(scene, alone, FrameConfiguration()));
     one_by_one.insert(one_by_one.end(), part.stream.begin(), part.stream.end());
   }
   EXPECT_TRUE(together.stream == one_by_one);
@@ -138,14 +139,14 @@ TEST(ModelFrame, StreamSpansAndFramebufferTellTheSame) {
   Random random(kSeed);
   const Scene scene = lit_scene(160, 120);
   Geometry geometry = random_geometry(random, scene, 40, 25);
-  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24);
-  const std::size_t all = run_model(frame, geometry).triangles_set_up;
+  const FrameSetup frame(scene, geometry, FrameConfiguration());
+  const std::size_t all = run_model(frame).triangles.set_up;
   for (ScreenVertex& vertex : geometry.triangles[7].vertices) vertex.x += 1000 * kSubpixels;
-  const ModelFrame model = run_model(frame, geometry);
-  EXPECT_EQ(model.triangles_set_up, all - 1) << "one lies outside now";
+  const RecordedModel model = record_model(frame);
+  EXPECT_EQ(model.triangles.set_up, all - 1) << "one lies outside now";
   std::size_t place = 0;
   std::vector<std::uint32_t> triangle_of;  // for each pixel of the stream
-  for (const TracedSpan& span : model.spans) {
+  for (const RecordedSpan& span : model.spans) {
     EXPECT_NE(span.triangle, 7U);
     for (int i = 0; i < span.row.length; ++i, ++place) {
       ASSERT_LT(place, model.stream.size());
@@ -182,13 +183,13 @@ TEST(ModelFrame, CountsTrianglesWhoseValuesLeaveTheirRegisters) {
   Random random(kSeed);
   const Scene scene = lit_scene(160, 120);
   Geometry geometry = random_geometry(random, scene, 10, 25);
-  const FrameSetup frame(scene, geometry, DatapathConfiguration(), 24);
-  EXPECT_EQ(run_model(frame, geometry).coefficient_overflows, 0U);
+  const FrameSetup frame(scene, geometry, FrameConfiguration());
+  EXPECT_EQ(run_model(frame).triangles.overflows, 0U);
   auto& vertices = geometry.triangles[3].vertices;
   vertices[0].normal = Vec3(1, 0, 0.01);
   vertices[1].normal = Vec3(-1, 0, 0.01);
   vertices[2].normal = Vec3(0, 0, 0.01);
-  EXPECT_EQ(run_model(frame, geometry).coefficient_overflows, 1U);
+  EXPECT_EQ(run_model(frame).triangles.overflows, 1U);
 }
 
 }  // namespace

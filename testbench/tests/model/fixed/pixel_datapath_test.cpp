@@ -25,7 +25,7 @@ std::vector<std::uint32_t> shade(const PixelDatapath& datapath, const Span& span
   return colors;
 }
 
-void expect_same(Random& random, const DatapathConfiguration& c, Evaluation evaluation,
+void expect_same(Random& random, const FrameConfiguration& c, Evaluation evaluation,
                  int longest) {
   const OutputColor cue_color = random_color(random);
   PixelDatapath stepping(c, Evaluation::stepping, cue_color), closed_form(c, evaluation, cue_color);
@@ -60,7 +60,7 @@ void expect_batch_is_its_spans(Evaluation evaluation) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
   for (int i = 0; i < 100; ++i) {
-    const DatapathConfiguration c = random_configuration(random);
+    const FrameConfiguration c = random_configuration(random);
     PixelDatapath datapath(c, evaluation, random_color(random));
     datapath.load_table(random_table(random, c));
     std::vector<Span> spans;
@@ -98,7 +98,7 @@ TEST(PixelDatapath, TheBestEvaluationEqualsStepping) {
 // The same with the seed left to chance; rapidcheck prints what replays a failure.
 RC_GTEST_PROP(PixelDatapath, AllEvaluationsAgreeForAnyBlocksAndFlags, ()) {
   Random random(*rc::gen::noShrink(rc::gen::arbitrary<unsigned>()));
-  const DatapathConfiguration c = random_configuration(random);
+  const FrameConfiguration c = random_configuration(random);
   RC_TAG(std::string(c.diffuse ? "diffuse " : "") + (c.specular ? "specular " : "") +
          (c.depth_cue ? "depth cueing" : ""));
   for (const Evaluation evaluation : {Evaluation::portable, best_evaluation()}) {
@@ -115,7 +115,7 @@ TEST(PixelDatapath, EveryCombinationOfBlocksInBothWordSizes) {
     for (const GateSource gate : {GateSource::off, GateSource::diffuse, GateSource::series}) {
       for (const int channels : {1, 3}) {
         for (const int fraction : {16, 30}) {
-          DatapathConfiguration c;
+          FrameConfiguration c;
           c.diffuse = (blocks & 1) != 0;
           c.specular = (blocks & 2) != 0;
           c.depth_cue = (blocks & 4) != 0;
@@ -139,7 +139,7 @@ TEST(PixelDatapath, EveryGateAndChannelCountInBothWordSizes) {
     for (const GateSource gate : {GateSource::off, GateSource::diffuse, GateSource::series}) {
       for (const int diffuse_fraction : {4, 22, 23, 30}) {  // 32 bits are 22 of them
         for (const int specular_fraction : {1, 20, 21, 25}) {
-          DatapathConfiguration c;
+          FrameConfiguration c;
           c.channels = channels;
           c.gate = gate;
           c.diffuse_fraction_bits = diffuse_fraction;
@@ -158,7 +158,7 @@ class Pixel : public testing::TestWithParam<Evaluation> {
  protected:
   // A pixel of constant diffuse light and highlight: `diffuse` in LSB with ambient light and half.
   std::uint32_t color(GateSource gate, double diffuse, double specular, double gate_value) {
-    DatapathConfiguration c;
+    FrameConfiguration c;
     c.gate = gate;
     HighlightTable table;
     table.roms.emplace_back(c, 0.5, 1);  // 127.5 at full scale
@@ -197,8 +197,8 @@ TEST_P(Pixel, TheGateSeriesDecidesInPlaceOfTheDiffuse) {
 // 20.5 LSB of level, 100.5 of diffuse light, 64 of highlight; the cue's colour is 40.
 class CuedPixel : public testing::TestWithParam<Evaluation> {
  protected:
-  std::uint32_t color(double own_share, bool base, bool highlight = true, double diffuse = 100.5) {
-    DatapathConfiguration c;
+  std::uint32_t color(double cue_factor, bool base, bool highlight = true, double diffuse = 100.5) {
+    FrameConfiguration c;
     c.depth_cue = true;
     HighlightTable table;
     table.roms.emplace_back(c, 0.5, 1);
@@ -211,7 +211,7 @@ class CuedPixel : public testing::TestWithParam<Evaluation> {
     span.level[0] = std::llround(20.5 * 65536);
     span.diffuse[0].v = std::llround(diffuse * 65536);
     span.specular.v = 512 << 12;
-    span.cue.v = std::llround(std::ldexp(own_share, kCueFraction));
+    span.cue.v = std::llround(std::ldexp(cue_factor, kCueFraction));
     return shade(datapath, span)[0];
   }
 };
@@ -246,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(PixelDatapath, Pixel,
 
 // One lit channel is enough for the highlight of all.
 TEST(PixelDatapath, AnyLitChannelOpensTheHighlight) {
-  DatapathConfiguration c;
+  FrameConfiguration c;
   c.channels = 3;
   HighlightTable table;
   for (int i = 0; i < 3; ++i) table.roms.emplace_back(c, 0.5, 0);  // 128, by 8 bits

@@ -61,14 +61,14 @@ Seams largest_seams(SeriesFit fit, Anchor anchor, Viewer viewer) {
   Random random(kSeed);
   Scene scene = lit_scene(kSize, kSize);
   scene.shading.viewer = viewer;
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.series_fit = fit;
   configuration.anchor = anchor;
   Seams largest;
   for (int i = 0; i < 300; ++i) {
     const Neighbours neighbours(random);
-    const FrameSetup frame(scene, neighbours.geometry, configuration, 24);
-    const FrontEnd front_end(frame, neighbours.geometry);
+    const FrameSetup frame(scene, neighbours.geometry, configuration);
+    const FrontEnd front_end(frame);
     std::array<TriangleWork, 2> work;
     for (std::uint32_t t = 0; t < 2; ++t) {
       EXPECT_EQ(front_end.set_up(t, 0, work[t]), SetupOutcome::ready);
@@ -98,7 +98,7 @@ TEST(Seam, OfSixPointIsAtMostALsbOfTheRegister) {
 // table, they do not reach.
 TEST(Seam, OfSixPointRoundedOnceIsLessThanALsbOfTheOutput) {
   SCOPED_TRACE(kSeed);
-  const DatapathConfiguration configuration;
+  const FrameConfiguration configuration;
   const Seams seams = largest_seams(SeriesFit::six_point, Anchor::triangle, Viewer::infinite);
   EXPECT_LT(seams.diffuse, 1 << configuration.diffuse_fraction_bits);
   EXPECT_LT(seams.specular, 1 << configuration.specular_fraction_bits);
@@ -107,7 +107,7 @@ TEST(Seam, OfSixPointRoundedOnceIsLessThanALsbOfTheOutput) {
 // The measure sees seams where there are some.
 TEST(Seam, OfTaylorIsMoreThanALsbOfTheOutput) {
   SCOPED_TRACE(kSeed);
-  const DatapathConfiguration configuration;
+  const FrameConfiguration configuration;
   const Seams seams = largest_seams(SeriesFit::taylor, Anchor::span, Viewer::infinite);
   EXPECT_GT(seams.diffuse, 1 << configuration.diffuse_fraction_bits);
 }

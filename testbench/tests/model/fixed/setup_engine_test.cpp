@@ -47,15 +47,15 @@ TEST(SetupEngine, RoundsEachCoefficientToNearest) {
       scene.shading.viewer = viewer;
       scene.depth_cue = DepthCue{5.2, 5.7, Color::Zero()};
       const Geometry geometry = random_geometry(random, scene, 100, 30);
-      DatapathConfiguration configuration;
+      FrameConfiguration configuration;
       configuration.channels = 3;
       configuration.gate = GateSource::series;
       configuration.depth_cue = true;
       configuration.anchor = anchor;
       configuration.diffuse_fraction_bits = random.integer(4, 30);
       configuration.specular_fraction_bits = random.integer(1, 25);
-      const FrameSetup frame(scene, geometry, configuration, 24);
-      const SetupEngine engine(frame, geometry);
+      const FrameSetup frame(scene, geometry, configuration);
+      const SetupEngine engine(frame);
       const int extra = anchor == Anchor::span ? 20 : 0;
       const int diffuse_bits = configuration.diffuse_fraction_bits + extra;
       for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
@@ -78,7 +78,7 @@ TEST(SetupEngine, RoundsEachCoefficientToNearest) {
         expect_rounded(setup.specular, real.specular, configuration.specular_fraction_bits + extra,
                        which + " specular");
         expect_rounded(setup.depth, real.depth, 16, which + " depth");
-        expect_rounded(setup.own_share, real.own_share, kCueFraction + extra, which + " share");
+        expect_rounded(setup.cue_factor, real.cue_factor, kCueFraction + extra, which + " share");
       }
     }
   }
@@ -99,11 +99,11 @@ TEST(SetupEngine, ScalesSeriesToTheirOutputs) {
     vertex.z = corners[i][0];
     vertex.normal = vertex.eye = Vec3(0, 0, 1);
   }
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.anchor = Anchor::triangle;
   configuration.gate = GateSource::series;
-  const FrameSetup frame(scene, geometry, configuration, 24, Effects::all);  // depth included
-  const TriangleSetup setup = SetupEngine(frame, geometry).set_up(0, 0, 4, 5, 1);
+  const FrameSetup frame(scene, geometry, configuration, Effects::all);  // depth included
+  const TriangleSetup setup = SetupEngine(frame).set_up(0, 0, 4, 5, 1);
   // 255·(0.5 + 0.1) + ½ output LSB; a whole table; 255 LSB.
   EXPECT_EQ(setup.diffuse[0].t0, std::llround(127.5 * 65536) + std::llround(26.0 * 65536));
   EXPECT_EQ(setup.specular.t0, 1024 << 12);
@@ -134,10 +134,10 @@ TriangleSetup set_up_between(const Vec3& left, const Vec3& right,
   v[0].normal = left;
   v[1].normal = right;
   v[2].normal = Vec3(0, 0, 1);
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.series_fit = fit;
-  const FrameSetup frame(scene, geometry, configuration, 24);
-  return SetupEngine(frame, geometry).set_up(0, 0, 4, 0, 1);
+  const FrameSetup frame(scene, geometry, configuration);
+  return SetupEngine(frame).set_up(0, 0, 4, 0, 1);
 }
 
 TEST(SetupEngine, ReportsOpposedNormals) {

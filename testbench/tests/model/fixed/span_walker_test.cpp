@@ -26,8 +26,8 @@ Wide rounded(Wide value, int bits) {
   return bits == 0 ? value : (value + (Wide{1} << (bits - 1))) >> bits;
 }
 
-FrameSetup frame_of(const DatapathConfiguration& configuration) {
-  return FrameSetup(lit_scene(4096, 4096), Geometry(), configuration, 24);
+FrameSetup frame_of(const FrameConfiguration& configuration) {
+  return FrameSetup(lit_scene(4096, 4096), Geometry(), configuration);
 }
 
 struct Starts {
@@ -58,7 +58,7 @@ TEST(SpanWalker, StartsAreExactFromTheRoundedCoefficients) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
   for (const Anchor anchor : {Anchor::triangle, Anchor::span}) {
-    DatapathConfiguration configuration;
+    FrameConfiguration configuration;
     configuration.channels = 3;
     configuration.gate = GateSource::series;
     configuration.depth_cue = true;
@@ -75,14 +75,15 @@ TEST(SpanWalker, StartsAreExactFromTheRoundedCoefficients) {
       setup.triangle = 17;
       setup.pass = static_cast<std::uint32_t>(i % 2);
       setup.material = &material;
-      setup.plan.gate_series = setup.plan.depth_cue = true;
+      setup.plan.gate = SeriesForm::fitted;
+      setup.plan.depth_cue = true;
       const RowSpan row = {random.integer(0, 4000), random.integer(0, 4095), random.integer(1, 96)};
       for (FixedQuadratic& t : setup.diffuse) t = random_series(random, 0x1p44, 4096);
       setup.specular = random_series(random, 0x1p44, 4096);
       setup.gate = random_series(random, 0x1p44, 4096);
       const auto slope = [&random] { return random.integer(-(1 << 24), 1 << 24); };
       setup.depth = {random.integer(0, 1 << 30), slope(), slope()};
-      setup.own_share = {random.integer(0, 1 << 30), slope(), slope()};
+      setup.cue_factor = {random.integer(0, 1 << 30), slope(), slope()};
       const Span span = walker.start(setup, row);
       const int x = row.x - setup.x, y = row.y - setup.y;
       for (std::size_t c = 0; c < 3; ++c) {
@@ -92,7 +93,7 @@ TEST(SpanWalker, StartsAreExactFromTheRoundedCoefficients) {
       expect_starts(span.gate, exact_starts(setup.gate, x, y, dropped));
       EXPECT_EQ(span.depth, setup.depth.c + setup.depth.a * x + setup.depth.b * y);
       EXPECT_EQ(span.depth_step, setup.depth.a);
-      const auto& [share, share_x, share_y] = setup.own_share;
+      const auto& [share, share_x, share_y] = setup.cue_factor;
       expect_starts(span.cue,
                     {rounded(Wide{share} + Wide{share_x} * x + Wide{share_y} * y, dropped),
                      rounded(share_x, dropped), 0});
@@ -130,7 +131,7 @@ struct Formats {
 void expect_flags(const Formats& formats, double margin) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.anchor = formats.anchor;
   configuration.diffuse_fraction_bits = formats.diffuse_fraction;
   configuration.specular_fraction_bits = formats.specular_fraction;
@@ -186,7 +187,7 @@ TEST(SpanWalker, ReportsNothingThatFitsInLongSpansOfNarrowRegisters) {
 }
 
 TEST(SpanWalker, LooksAtEverySeriesInUse) {
-  DatapathConfiguration configuration;
+  FrameConfiguration configuration;
   configuration.channels = 3;
   configuration.gate = GateSource::series;
   configuration.depth_cue = true;
@@ -194,7 +195,8 @@ TEST(SpanWalker, LooksAtEverySeriesInUse) {
   const RowSpan row = {0, 0, 5};
   const auto everything = [] {
     TriangleSetup setup;
-    setup.plan.gate_series = setup.plan.depth_cue = true;
+    setup.plan.gate = SeriesForm::fitted;
+    setup.plan.depth_cue = true;
     return setup;
   };
   EXPECT_TRUE(walker.fits(everything(), row));
@@ -204,11 +206,12 @@ TEST(SpanWalker, LooksAtEverySeriesInUse) {
     if (series < 3) setup.diffuse[static_cast<std::size_t>(series)] = large;
     if (series == 3) setup.gate = large;
     if (series == 4) setup.specular = large;
-    if (series == 5) setup.own_share.c = large.t0;
+    if (series == 5) setup.cue_factor.c = large.t0;
     EXPECT_FALSE(walker.fits(setup, row)) << "series " << series;
     // What is not in use does not count.
-    setup.plan.gate_series = setup.plan.specular = setup.plan.depth_cue = false;
-    const SpanWalker grey(frame_of(DatapathConfiguration()));
+    setup.plan.gate = setup.plan.specular = SeriesForm::absent;
+    setup.plan.depth_cue = false;
+    const SpanWalker grey(frame_of(FrameConfiguration()));
     EXPECT_EQ(grey.fits(setup, row), series != 0) << "series " << series;
   }
 }
@@ -224,9 +227,8 @@ TEST(SpanWalker, WhatIsNotSteppedHasNoDifferences) {
     Random random(seed);
     const RandomEffects e = random_effects(random);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));
-    const FrameSetup frame(e.scene, e.geometry, suit_scene(e.configuration, e.scene, e.geometry),
-                           24);
-    const FrontEnd front_end(frame, e.geometry);
+    const FrameSetup frame(e.scene, e.geometry, with_derived_blocks(e.configuration, e.scene, e.geometry));
+    const FrontEnd front_end(frame);
     TriangleWork work;
     for (TriangleOrder next(front_end); !next.done(); next.advance()) {
       if (front_end.set_up(next.triangle(), next.pass(), work) != SetupOutcome::ready) continue;

@@ -104,7 +104,7 @@ TEST(Dataflow, OfTheSetupIsTheSameInEveryRun) {
       for (const int channels : {1, 3}) {
         SeriesPlan plan;
         plan.channels = channels;
-        plan.gate_series = gate_series;
+        plan.gate = gate_series ? SeriesForm::fitted : SeriesForm::absent;
         plan.form.local_viewer = local_viewer;
         const Dataflow first = record_setup(plan), second = record_setup(plan);
         ASSERT_EQ(first.nodes.size(), second.nodes.size());
@@ -129,7 +129,7 @@ TEST(Dataflow, OfTheSetupGrowsByWhatThePlanAsksFor) {
   };
   const OperationCounts grey = counts([](SeriesPlan&) {});
   const OperationCounts color = counts([](SeriesPlan& plan) { plan.channels = 3; });
-  const OperationCounts gated = counts([](SeriesPlan& plan) { plan.gate_series = true; });
+  const OperationCounts gated = counts([](SeriesPlan& plan) { plan.gate = SeriesForm::fitted; });
   const OperationCounts local = counts([](SeriesPlan& plan) { plan.form.local_viewer = true; });
   // Every further channel, and the gate, is the same series times another scale.
   EXPECT_EQ(color.multiply - grey.multiply, 12U);
