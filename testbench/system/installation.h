@@ -19,8 +19,8 @@ struct Installation {
 // Throws InputError where the program has been moved away from its files.
 const Installation& installation();
 
-// `name` as a file if there is one, else folder/name.toml. Throws InputError that lists the
-// folder's names. `what` is "preset", "technology card", ….
+// `name` as a file if there is one that is not a folder, else folder/name.toml. Throws InputError
+// that lists what the folder and its subfolders hold. `what` is "preset", "technology card", ….
 std::filesystem::path find_named(const std::string& name, const std::filesystem::path& folder,
                                  const std::string& what);
 
