@@ -1,5 +1,7 @@
 #include "sim/datapath_driver.h"
 
+#include <fmt/format.h>
+
 namespace phongpipe {
 
 DatapathDriver::DatapathDriver(const FrameSetup& frame, ClockedDatapath& datapath)
@@ -22,18 +24,36 @@ DatapathDriver::Outcome DatapathDriver::clock(const Span* span, bool pixel_ready
       }
     }
   }
-  if (inputs.span != nullptr || pixels_in_flight_ > 0) ++busy_clocks_;
+  const bool busy = inputs.span != nullptr || pixels_in_flight_ > 0;
+  if (busy) ++busy_clocks_;
   const DatapathOutputs outputs = datapath_->clock(inputs);
   if (inputs.span != nullptr && outputs.span_ready) {
     outcome.span_taken = true;
     pixels_in_flight_ += span->row.length;
+    pixels_ += span->row.length;
   }
   if (outputs.pixel_valid && pixel_ready) {
     outcome.pixel_taken = true;
     outcome.pixel = outputs.pixel;
+    if (pixels_in_flight_ <= 0) ++unasked_pixels_;
     --pixels_in_flight_;
   }
+  if (busy && pixel_ready && !outcome.span_taken && !outcome.pixel_taken) ++idle_clocks_;
   return outcome;
+}
+
+std::string DatapathDriver::misbehaviour(std::int64_t patience_clocks) const {
+  if (unasked_pixels_ > kUnaskedPixels) {
+    return fmt::format("pixel_datapath has emitted {} pixels that no span asked for",
+                       unasked_pixels_);
+  }
+  if (idle_clocks_ > patience_clocks + kIdleClocks * pixels_) {
+    return fmt::format(
+        "pixel_datapath was idle in {} clocks with work at hand and its output free, over {} "
+        "pixels",
+        idle_clocks_, pixels_);
+  }
+  return {};
 }
 
 }  // namespace phongpipe

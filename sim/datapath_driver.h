@@ -2,6 +2,8 @@
 // table lets the datapath run empty and loads it, one word a clock.
 #pragma once
 
+#include <string>
+
 #include "sim/clocked_datapath.h"
 
 namespace phongpipe {
@@ -23,7 +25,14 @@ class DatapathDriver {
   // Clocks in which the datapath held a pixel or was offered a span.
   std::int64_t busy_clocks() const { return busy_clocks_; }
 
+  // Why there is no use in going on, or an empty text: the datapath emits pixels that no span asked
+  // for, or has done nothing, with work at hand and its output free, in more clocks than
+  // `patience_clocks` and kIdleClocks for each pixel.
+  std::string misbehaviour(std::int64_t patience_clocks) const;
+
  private:
+  static constexpr std::int64_t kUnaskedPixels = 1000;
+  static constexpr std::int64_t kIdleClocks = 16;  // more than its latency
   static constexpr std::uint32_t kNoTable = ~std::uint32_t{0};
 
   const FrameSetup* frame_;
@@ -32,6 +41,9 @@ class DatapathDriver {
   int next_word_ = 0;
   std::int64_t pixels_in_flight_ = 0;
   std::int64_t busy_clocks_ = 0;
+  std::int64_t idle_clocks_ = 0;  // with work at hand and a free output
+  std::int64_t pixels_ = 0;       // asked for so far
+  std::int64_t unasked_pixels_ = 0;
 };
 
 }  // namespace phongpipe

@@ -29,6 +29,9 @@ class PixelDatapath : public sc_core::sc_module {
 
   std::int64_t in_flight() const { return driver_.pixels_in_flight(); }
   std::uint64_t moved() const { return moved_; }
+  std::string misbehaviour(std::int64_t patience_clocks) const {
+    return driver_.misbehaviour(patience_clocks);
+  }
   PixelOperations operations() const { return blocks_.operations(); }
 
  private:

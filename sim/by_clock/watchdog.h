@@ -41,6 +41,9 @@ class Watchdog : public sc_core::sc_module {
         break;
       }
       wait(static_cast<double>(kInterval) * period_);
+      context_.result.failure =
+          modules_.pixel_datapath.misbehaviour(context_.options.watchdog_cycles);
+      if (!context_.result.failure.empty()) break;
       const std::uint64_t moved = modules_.setup_engine.moved() + modules_.span_walker.moved() +
                                   modules_.pixel_datapath.moved() + modules_.framebuffer.moved();
       if (moved != last) still = 0;

@@ -18,6 +18,14 @@ void ClockedPixelDatapath::run() {
     }
     if (outcome.pixel_taken) deliver(outcome.pixel, cycle);
     if (outcome.loading) ++context_.result.rom_load_cycles;
+    if (cycle % kCheckInterval == 0) {
+      context_.result.failure = driver_.misbehaviour(context_.options.watchdog_cycles);
+      if (!context_.result.failure.empty()) {
+        context_.result.failure += fmt::format(", at cycle {}", cycle);
+        sc_core::sc_stop();
+        return;
+      }
+    }
     if (outcome.span_taken || outcome.pixel_taken || outcome.loading ||
         (!visible && driver_.pixels_in_flight() == 0)) {
       last_progress = cycle;

@@ -26,6 +26,8 @@ class ClockedPixelDatapath : public sc_core::sc_module {
   SC_HAS_PROCESS(ClockedPixelDatapath);
 
  private:
+  static constexpr Cycle kCheckInterval = 64;  // looking more often would cost simulation time
+
   void run();
   void deliver(const ShadedPixel& pixel, Cycle cycle);
   std::string stuck(Cycle cycle) const;

@@ -24,8 +24,7 @@ void simulate_frame(benchmark::State& state, const PawnFrame& pawn, Detail detai
       options.observe = [&hash](const ShadedPixel* pixels, const std::int64_t* cycles,
                                 std::size_t count) { hash.add(pixels, cycles, count); };
       const auto start = std::chrono::steady_clock::now();
-      const SimulationResult result =
-          simulate(pawn.frame, pawn.hardware.pipeline, options);
+      const SimulationResult result = simulate(pawn.frame, pawn.hardware.pipeline, options);
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
       benchmark::DoNotOptimize(hash);
       benchmark::DoNotOptimize(result.frame_cycles);

@@ -48,19 +48,10 @@ void write_curves(const Options& options, Progress& progress) {
   const std::vector<NamedCurve> curves = draw_curves(options, how);
   progress.clear();
   for (const auto& [name, curve] : curves) {
-    fmt::print("# {}\n{}", curve.title, curve_csv(curve));
+    print_or_throw(fmt::format("# {}\n{}", curve.title, curve_csv(curve)));
     if (options.out.empty()) continue;
-    std::filesystem::create_directories(options.out);
     write_text(options.out / (name + ".csv"), curve_csv(curve));
     write_text(options.out / (name + ".svg"), svg(chart_of(curve)));
-  }
-}
-
-void write_output(const std::string& file, const std::string& text) {
-  if (file == "-") {
-    fmt::print("{}", text);
-  } else if (!file.empty()) {
-    write_text(file, text);
   }
 }
 
@@ -68,8 +59,11 @@ int compare_methods(const Options& options) {
   if (options.scenes.empty() && options.curve.empty() && !options.microvax) {
     throw InputError("nothing to compare: give scenes, --curve NAME or --microvax");
   }
+  check_output(options.json);
+  check_output(options.csv);
+  if (!options.out.empty()) make_folder(options.out);
   Progress progress;
-  if (options.microvax) fmt::print("{}", microvax_text());
+  if (options.microvax) print_or_throw(microvax_text());
   if (!options.curve.empty()) write_curves(options, progress);
   const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
@@ -82,7 +76,7 @@ int compare_methods(const Options& options) {
         options.power.value_or(PowerKind::exact));
     progress.clear();
     if (options.json != "-" && options.csv != "-") {
-      fmt::print("{}", comparison_text(comparison));
+      print_or_throw(comparison_text(comparison));
     }
     results.push_back(comparison_json(comparison));
     const std::string rows = comparison_csv(comparison);

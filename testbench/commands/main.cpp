@@ -8,15 +8,14 @@
 #include "model/files/spelling.h"
 #include "model/scene/input_error.h"
 #include "testbench/commands/options.h"
+#include "testbench/system/output_file.h"
+#include "testbench/system/terminal.h"
 
 namespace phongpipe {
 namespace {
 
-constexpr int kBadInput = 2;
-constexpr int kToolFailed = 3;
-
 int fail(int status, const std::string& message) {
-  fmt::print(stderr, "phongpipe: {}\n", message);
+  fmt::print(stderr, "phongpipe: {}\n", printable(message));
   return status;
 }
 
@@ -62,7 +61,7 @@ int run_program(int argc, char** argv) {
                        [flag](const char* word) { return word == std::string_view(flag); });
   };
   if (asked_for("--help-settings")) {
-    fmt::print("{}", settings_help());
+    print_or_throw(settings_help());
     return 0;
   }
   check_command(application, argc, argv);

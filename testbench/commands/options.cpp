@@ -5,15 +5,18 @@
 
 #include "model/files/scene_file.h"
 #include "model/files/text_file.h"
+#include "model/scene/input_error.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/system/installation.h"
+#include "testbench/system/output_file.h"
+#include "testbench/system/terminal.h"
 
 namespace phongpipe {
 namespace {}  // namespace
 
 Scene load_named_scene(const std::string& name) {
   Scene scene = load_scene(find_named(name, installation().scenes, "scene"));
-  scene.source = name;
+  scene.source = printable(name);
   return scene;
 }
 
@@ -36,6 +39,27 @@ std::string settings_help() {
   }
   return text + fmt::format("\n  {:<42} a card in hw/technology, or a file: the clock\n",
                             fmt::format("technology = {}", preset.technology.name));
+}
+
+void write_output(const std::string& file, const std::string& text) {
+  if (file == "-") {
+    print_or_throw(text);
+  } else if (!file.empty()) {
+    write_text(file, text);
+  }
+}
+
+void check_output(const std::string& file) {
+  if (!file.empty() && file != "-") check_writable(file);
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw InputError(fmt::format("{}: no such folder, and none can be made: {}", folder.string(),
+                                 error.message()));
+  }
 }
 
 CLI::Validator positive_number() {

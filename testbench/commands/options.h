@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -18,7 +19,10 @@
 
 namespace phongpipe {
 
-using Run = std::function<int()>;  // the exit status: 0 all holds, 1 a check failed
+// The exit status of the program, besides 0 where all holds.
+constexpr int kCheckFailed = 1, kBadInput = 2, kToolFailed = 3;
+
+using Run = std::function<int()>;  // returns the exit status
 
 void add_compare(CLI::App& application, Run& run);
 void add_render(CLI::App& application, Run& run);
@@ -63,6 +67,13 @@ void add_choice(CLI::App& command, const std::string& flag, Value& value,
 
 // A finite number above 0.
 CLI::Validator positive_number();
+
+// Where a result goes: a file, standard output for "-", nowhere for an empty name.
+void write_output(const std::string& file, const std::string& text);
+// Throws InputError where write_output() could not, before the work.
+void check_output(const std::string& file);
+// Makes the folder where there is none; throws InputError where it cannot.
+void make_folder(const std::filesystem::path& folder);
 
 // --power: how the power of highlights is computed by the methods in real arithmetic.
 void add_power_option(CLI::App& command, std::optional<PowerKind>& power);

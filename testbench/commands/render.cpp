@@ -77,6 +77,8 @@ void check(const Options& options, Arithmetic arithmetic) {
     throw InputError(
         fmt::format("{}: pictures are written as .png or .pfm", options.output.string()));
   }
+  check_output(options.output.string());
+  check_output(options.triangles.string());
 }
 
 // The bits of the hardware, as colours in LSB.

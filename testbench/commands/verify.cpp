@@ -1,6 +1,7 @@
 // phongpipe verify: every pixel three ways, accuracy, and the time budget.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -8,6 +9,7 @@
 #include "testbench/commands/options.h"
 #include "testbench/reports/verification_report.h"
 #include "testbench/system/output_file.h"
+#include "testbench/system/terminal.h"
 
 namespace phongpipe {
 namespace {
@@ -58,53 +60,66 @@ class Verifier {
     // A mistake in the last scene must not cost the work on those before.
     std::vector<Scene> scenes;
     for (const std::string& name : options_.scenes) scenes.push_back(load_named_scene(name));
+    check_outputs();
     for (std::size_t i = 0; i < scenes.size(); ++i) verify_scene(scenes[i], names_[i]);
     if (scenes.size() > 1 && options_.json != "-") {
-      fmt::print("{} of {} passed\n", passed_, scenes.size());
+      print_or_throw(fmt::format("{} of {} passed\n", passed_, scenes.size()));
     }
-    write_json();
-    return refused_ ? 2 : passed_ == scenes.size() ? 0 : 1;
+    write_output(options_.json, json_text());
+    if (status_ == 0 && passed_ < scenes.size()) status_ = kCheckFailed;
+    return status_;
   }
 
  private:
+  // A scene that cannot be verified does not keep the others from it.
   void verify_scene(const Scene& scene, const std::string& name) {
     try {
       const VerificationResult result = verify(
           scene, hardware_, options_.verification,
           [&](const std::string& what) { progress_(fmt::format("{}: {}", scene.source, what)); });
       progress_.clear();
-      ReportStyle style;
-      style.color = color_wanted();
-      style.verbose = options_.verbose;
-      style.command = command_text(options_);
-      if (!options_.json.empty() && options_.json != "-") style.more.push_back(options_.json);
-      if (!options_.pictures.empty()) {
-        style.more.push_back(write_pictures(result, options_.pictures, name).back().string());
-      }
-      if (options_.json != "-") {
-        fmt::print("{}", options_.scenes.size() == 1 ? report_text(result, style)
-                                                     : report_line(result, style));
-        std::fflush(stdout);
-      }
+      show(result, name);
       results_.push_back(report_json(result));
       passed_ += result.passed() ? 1 : 0;
-    } catch (const InputError& error) {
+    } catch (const std::exception& error) {
       progress_.clear();
       if (options_.scenes.size() == 1) throw;
-      refused_ = true;
-      fmt::print(stderr, "phongpipe: {}\n", error.what());
-      results_.push_back({{"scene", scene.source}, {"passed", false}, {"error", error.what()}});
+      const bool input = dynamic_cast<const InputError*>(&error) != nullptr;
+      status_ = std::max(status_, input ? kBadInput : kToolFailed);
+      fmt::print(stderr, "phongpipe: {}\n", printable(error.what()));
+      results_.push_back(
+          {{"scene", scene.source}, {"passed", false}, {"error", printable(error.what())}});
     }
   }
 
-  void write_json() const {
-    if (options_.json.empty()) return;
-    const std::string text = (results_.size() == 1 ? results_.front() : results_).dump(2) + "\n";
-    if (options_.json == "-") {
-      fmt::print("{}", text);
-    } else {
-      write_text(options_.json, text);
+  void show(const VerificationResult& result, const std::string& name) const {
+    ReportStyle style;
+    style.color = color_wanted();
+    style.verbose = options_.verbose;
+    style.command = command_text(options_);
+    if (!options_.json.empty() && options_.json != "-") style.more.push_back(options_.json);
+    if (!options_.pictures.empty()) {
+      const auto files = picture_files(options_.pictures, name);
+      write_pictures(result, files);
+      style.more.push_back(printable(files.back().string()));
     }
+    if (options_.json == "-") return;
+    print_or_throw(options_.scenes.size() == 1 ? report_text(result, style)
+                                               : report_line(result, style));
+  }
+
+  // What cannot be written is said before the work.
+  void check_outputs() const {
+    check_output(options_.json);
+    if (options_.pictures.empty()) return;
+    make_folder(options_.pictures);
+    for (const std::string& name : names_) {
+      for (const auto& file : picture_files(options_.pictures, name)) check_writable(file);
+    }
+  }
+
+  std::string json_text() const {
+    return (results_.size() == 1 ? results_.front() : results_).dump(2) + "\n";
   }
 
   const Options& options_;
@@ -113,7 +128,7 @@ class Verifier {
   Progress progress_;
   nlohmann::ordered_json results_ = nlohmann::ordered_json::array();
   std::size_t passed_ = 0;
-  bool refused_ = false;
+  int status_ = 0;
 };
 
 int verify_scenes(Options options) {

@@ -341,18 +341,17 @@ ordered_json report_json(const VerificationResult& r) {
   return json;
 }
 
-std::vector<std::filesystem::path> write_pictures(const VerificationResult& r,
-                                                  const std::filesystem::path& folder,
-                                                  const std::string& name) {
-  const std::pair<const char*, const Picture&> pictures[] = {{"result", r.result_picture},
-                                                             {"exact", r.accuracy.exact_picture},
-                                                             {"error", r.accuracy.error_picture}};
-  std::vector<std::filesystem::path> files;
-  for (const auto& [what, picture] : pictures) {
-    files.push_back(folder / fmt::format("{}-{}.png", name, what));
-    write_png(files.back(), picture);
-  }
-  return files;
+std::array<std::filesystem::path, 3> picture_files(const std::filesystem::path& folder,
+                                                   const std::string& name) {
+  return {folder / (name + "-result.png"), folder / (name + "-exact.png"),
+          folder / (name + "-error.png")};
+}
+
+void write_pictures(const VerificationResult& r,
+                    const std::array<std::filesystem::path, 3>& files) {
+  write_png(files[0], r.result_picture);
+  write_png(files[1], r.accuracy.exact_picture);
+  write_png(files[2], r.accuracy.error_picture);
 }
 
 }  // namespace phongpipe

@@ -1,6 +1,7 @@
 // What a verification says: on the screen, as JSON for programs, and as pictures.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -25,9 +26,10 @@ std::string report_line(const VerificationResult& result, const ReportStyle& sty
 
 nlohmann::ordered_json report_json(const VerificationResult& result);
 
-// Writes name-result.png, name-exact.png and name-error.png; returns the files.
-std::vector<std::filesystem::path> write_pictures(const VerificationResult& result,
-                                                  const std::filesystem::path& folder,
-                                                  const std::string& name);
+// name-result.png, name-exact.png and name-error.png.
+std::array<std::filesystem::path, 3> picture_files(const std::filesystem::path& folder,
+                                                   const std::string& name);
+void write_pictures(const VerificationResult& result,
+                    const std::array<std::filesystem::path, 3>& files);
 
 }  // namespace phongpipe

@@ -226,10 +226,17 @@ void build_rtl(const DatapathConfiguration& configuration, const fs::path& sourc
   run_or_throw(verilate, folder, sources);
 
   const fs::path& shim = installation().rtl_shim;
-  std::vector<std::string> compile = {
-      "g++",     "-std=c++17",          "-O3",          "-fPIC",
-      "-shared", "-fvisibility=hidden", "-I" + include, "-I" + include + "/vltstd",
-      "-I.",     "-I" + shim.string(),  "-I" + installation().include.string()};
+  std::vector<std::string> compile = {"g++",
+                                      "-std=c++17",
+                                      "-O3",
+                                      "-fPIC",
+                                      "-shared",
+                                      "-fvisibility=hidden",
+                                      "-I" + include,
+                                      "-I" + include + "/vltstd",
+                                      "-I.",
+                                      "-I" + shim.string(),
+                                      "-I" + installation().include.string()};
   append(compile, parameter_options("-DPHONGPIPE_", configuration));
   compile.push_back((shim / "rtl_shim.cpp").string());
   for (const auto& entry : fs::directory_iterator(folder)) {

@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "model/files/text_file.h"
+#include "testbench/cosim/metrics.h"
+#include "testbench/hardware/hardware.h"
 #include "testbench/system/process.h"
 
 namespace phongpipe {
@@ -101,7 +103,8 @@ class ShippedScene : public Program, public ::testing::WithParamInterface<Shippe
   static void expect_agreement(const nlohmann::json& result) {
     EXPECT_EQ(result["mismatches"]["model_rtl"], 0);
     EXPECT_EQ(result["mismatches"]["model_systemc"], 0);
-    EXPECT_EQ(result["effects"]["everything"]["frame_mismatches"], 0);
+    EXPECT_EQ(result["mismatches"]["frame_rtl"], 0);
+    EXPECT_EQ(result["mismatches"]["frame_systemc"], 0);
     EXPECT_EQ(result["cycles"]["difference"], 0);
     EXPECT_EQ(result["coefficient_overflows"], 0);
     EXPECT_TRUE(result["passed"]);
@@ -110,8 +113,9 @@ class ShippedScene : public Program, public ::testing::WithParamInterface<Shippe
 
 TEST_P(ShippedScene, PassesWithoutAMismatchInBothDetails) {
   for (const char* detail : {"span", "cycle"}) {
-    const nlohmann::json result = verify({"--detail", detail});
+    const nlohmann::json result = verify({"--detail", detail, "--effects", "both"});
     expect_agreement(result);
+    EXPECT_EQ(result["effects"]["everything"]["frame_mismatches"], 0);
     EXPECT_GT(result["pixels"], 10000);
   }
 }
@@ -153,7 +157,9 @@ TEST_F(Program, EverySceneThatIsShippedIsTested) {
 }
 
 TEST_F(Program, VerifyWritesEveryKeyAndThreePictures) {
-  ASSERT_EQ(run({"verify", "sphere", "--out", folder_.string(), "--json", file("r.json")}).status,
+  ASSERT_EQ(run({"verify", "sphere", "--effects", "both", "--out", folder_.string(), "--json",
+                 file("r.json")})
+                .status,
             0);
   const nlohmann::json result = json("r.json");
   for (const char* key : {"/scene",
@@ -179,6 +185,13 @@ TEST_F(Program, VerifyWritesEveryKeyAndThreePictures) {
                           "/effects/built",
                           "/effects/everything",
                           "/within_budget",
+                          "/detail",
+                          "/stall_percent",
+                          "/seed",
+                          "/limited_by",
+                          "/implementations/rtl/failure",
+                          "/implementations/rtl/first_divergence",
+                          "/implementations/systemc/first_divergence",
                           "/accuracy/max_lsb",
                           "/accuracy/rms_lsb",
                           "/accuracy/psnr_db",
@@ -260,9 +273,10 @@ TEST_F(Program, VerifiesSeveralLightsAndDepthCueing) {
 }
 
 TEST_F(Program, VerifyTellsWhatTheSceneNeedsAndWhatThatSaves) {
-  const ProcessOutput output = run({"verify", "sphere", "--json", file("r.json")});
+  const ProcessOutput output =
+      run({"verify", "sphere", "--effects", "both", "--verbose", "--json", file("r.json")});
   ASSERT_EQ(output.status, 0) << output.text;
-  EXPECT_NE(output.text.find("0 pixels differ from everything's"), std::string::npos)
+  EXPECT_NE(output.text.find("hardware for the scene, with every effect"), std::string::npos)
       << output.text;
   const nlohmann::json effects = json("r.json")["effects"];
   const auto holds = [&effects](const char* list, const char* effect) {
@@ -283,14 +297,14 @@ TEST_F(Program, VerifyTellsWhatTheSceneNeedsAndWhatThatSaves) {
 }
 
 TEST_F(Program, VerifyBuildsEverythingWhereAskedTo) {
-  const ProcessOutput output =
-      run({"verify", "sphere", "--effects", "all", "--budget", "1000", "--json", file("r.json")});
+  const ProcessOutput output = run({"verify", "sphere", "--effects", "all", "--budget", "1000",
+                                    "--verbose", "--json", file("r.json")});
   EXPECT_EQ(output.status, 0) << output.text;
   EXPECT_NE(output.text.find("everything is built and simulated"), std::string::npos)
       << output.text;
   const nlohmann::json all = json("r.json")["effects"];
   EXPECT_FALSE(all.contains("everything")) << "there is no more to compare it with";
-  ASSERT_EQ(run({"verify", "sphere", "--effects", "scene", "--json", file("r.json")}).status, 0);
+  ASSERT_EQ(run({"verify", "sphere", "--effects", "both", "--json", file("r.json")}).status, 0);
   const nlohmann::json compared = json("r.json")["effects"]["everything"];
   for (const char* same : {"frame_cycles", "setup_operations", "pixel_operations", "adders",
                            "multipliers", "rom_bits", "modules"}) {
@@ -304,15 +318,107 @@ TEST_F(Program, JsonAloneGoesToStandardOutput) {
   EXPECT_TRUE(nlohmann::json::accept(output.text)) << output.text;
 }
 
-TEST_F(Program, SeveralScenesGiveAnArray) {
-  ASSERT_EQ(run({"verify", "sphere", "two-planes", "--json", file("r.json")}).status, 0);
+TEST_F(Program, SeveralScenesAreALineEachAndAnArray) {
+  const ProcessOutput output = run({"verify", "sphere", "two-planes", "--json", file("r.json")});
+  ASSERT_EQ(output.status, 0) << output.text;
+  EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 3) << output.text;
+  EXPECT_EQ(output.text.rfind("PASSED sphere", 0), 0U) << output.text;
+  EXPECT_NE(output.text.find("2 of 2 passed\n"), std::string::npos) << output.text;
   EXPECT_EQ(json("r.json").size(), 2U);
+}
+
+TEST_F(Program, TheAnswerIsFiveLines) {
+  const ProcessOutput output = run({"verify", "sphere"});
+  ASSERT_EQ(output.status, 0) << output.text;
+  EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 5) << output.text;
+  for (const char* part : {"PASSED sphere  256×256, 42,464 pixels, hardware default ",
+                           "\n  same     model = SystemC = RTL, every pixel and every cycle (",
+                           "\n  time     29.56 of 100 ns a pixel; datapath 8.68; limited by setup",
+                           "\n  error    at most 1.61 LSB", "\n  more     --verbose"}) {
+    EXPECT_NE(output.text.find(part), std::string::npos) << part << " in\n" << output.text;
+  }
+}
+
+TEST_F(Program, VerboseTellsEverySettingAndMetric) {
+  const ProcessOutput output = run({"verify", "sphere", "--verbose"});
+  ASSERT_EQ(output.status, 0) << output.text;
+  for (const Setting<Hardware>& setting : hardware_settings()) {
+    EXPECT_NE(output.text.find(fmt::format("{} ", setting.key)), std::string::npos)
+        << setting.name();
+  }
+  for (const Metric& metric : metrics()) {
+    EXPECT_NE(output.text.find(fmt::format("\n  {} ", metric.name)), std::string::npos)
+        << metric.name;
+  }
+}
+
+// A scene that turns out to be no picture keeps nobody from the results of the others.
+TEST_F(Program, EverySceneHasAResultWhereOneIsRefused) {
+  std::string text = read_whole_file(fs::path(PHONGPIPE_SCENES) / "sphere.toml");
+  const std::string object = "primitive = \"sphere\"\n";
+  text.insert(text.find(object) + object.size(), "translate = [1000, 0, 0]\n");
+  const std::string away = write("away.toml", text);
+  const ProcessOutput output =
+      run({"verify", "sphere", away, "two-planes", "--json", file("r.json")});
+  EXPECT_EQ(output.status, 2) << output.text;
+  EXPECT_NE(output.text.find("2 of 3 passed"), std::string::npos) << output.text;
+  const nlohmann::json results = json("r.json");
+  ASSERT_EQ(results.size(), 3U);
+  EXPECT_TRUE(results[0]["passed"]);
+  EXPECT_NE(results[1]["error"].get<std::string>().find("covers a pixel"), std::string::npos);
+  EXPECT_TRUE(results[2]["passed"]);
+  expect_refused({"verify", "sphere", "nosuch", "--json", file("s.json")}, "no such file or scene");
+}
+
+TEST_F(Program, ScenesOfOneNameKeepTheirPicturesApart) {
+  fs::create_directories(folder_ / "other");
+  const std::string text = read_whole_file(fs::path(PHONGPIPE_SCENES) / "two-planes.toml");
+  const std::string first = write("planes.toml", text), second = write("other/planes.toml", text);
+  ASSERT_EQ(run({"verify", first, second, "--out", file("pictures")}).status, 0);
+  for (const char* picture : {"planes-result.png", "planes-2-result.png"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "pictures" / picture)) << picture;
+  }
+}
+
+TEST_F(Program, OutputsThatCannotBeWrittenAreRefusedBeforeTheWork) {
+  expect_refused({"verify", "sphere", "--json", "/nosuch/r.json"}, "/nosuch/r.json");
+  expect_refused({"verify", "sphere", "--out", "/dev/null/pictures"}, "/dev/null/pictures");
+  expect_refused({"render", "sphere", "-o", "/nosuch/a.png"}, "/nosuch/a.png");
+  expect_refused({"compare", "sphere", "--csv", folder_.string()}, folder_.string());
+  const ProcessOutput full =
+      run_process({"sh", "-c", PHONGPIPE_PROGRAM " verify sphere > /dev/full"});
+  EXPECT_EQ(full.status, 3) << full.text;
+  EXPECT_NE(full.text.find("No space left on device"), std::string::npos) << full.text;
+}
+
+TEST_F(Program, FailedToolsAreStatusThree) {
+  fs::create_directories(folder_ / "hw");
+  write("hw/pixel_datapath.sv", "module pixel_datapath; endmodul\n");
+  const ProcessOutput output = run({"verify", "sphere", "--rtl", file("hw")});
+  EXPECT_EQ(output.status, 3) << output.text;
+  EXPECT_NE(output.text.find("building the RTL failed: verilator said: %Error"), std::string::npos)
+      << output.text;
+  EXPECT_EQ(std::count(output.text.begin(), output.text.end(), '\n'), 1) << output.text;
+}
+
+TEST_F(Program, HelpSettingsExplainsEachWithThePresetsValue) {
+  const Hardware preset = load_hardware("default", {});
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help-settings"}, {"verify", "--help-settings"}}) {
+    const ProcessOutput output = run(arguments);
+    EXPECT_EQ(output.status, 0);
+    for (const Setting<Hardware>& setting : hardware_settings()) {
+      const std::string shown = fmt::format("  {} = {} ", setting.key, setting.value(preset));
+      EXPECT_NE(output.text.find(shown), std::string::npos) << shown;
+      EXPECT_NE(output.text.find(setting.meaning), std::string::npos) << setting.name();
+    }
+  }
 }
 
 TEST_F(Program, OverBudgetFails) {
   const ProcessOutput output = run({"verify", "sphere", "--budget", "1"});
   EXPECT_EQ(output.status, 1);
-  EXPECT_NE(output.text.find("OVER the budget of 1 ns"), std::string::npos) << output.text;
+  EXPECT_NE(output.text.find("of 1 ns a pixel, OVER BUDGET"), std::string::npos) << output.text;
   EXPECT_NE(output.text.find("FAILED"), std::string::npos);
 }
 
@@ -452,9 +558,12 @@ TEST_F(Program, AnEmptyPictureIsNoPass) {
 }
 
 TEST_F(Program, BadUsageIsOneLineAndTwo) {
-  expect_refused({}, "subcommand is required");
+  expect_refused({}, "which command? There are verify, render, compare");
+  expect_refused({"frob"}, "frob: no such command; there are verify, render, compare");
+  expect_refused({"verfy", "sphere"}, "did you mean verify?");
   expect_refused({"verify"}, "scenes is required");
-  expect_refused({"verify", "nosuch.toml"}, "nosuch.toml: no such file or scene; there are");
+  expect_refused({"verify", "nosuch.toml"},
+                 "nosuch.toml: no such file or scene; there are the scenes mesh, pawn,");
   expect_refused({"verify", "sphere", "--hardware", "nosuch"}, "paper-1k, paper-8k");
   expect_refused({"verify", "sphere", "--set", "rom_adress_bits=9"},
                  "did you mean rom_address_bits");
@@ -462,16 +571,18 @@ TEST_F(Program, BadUsageIsOneLineAndTwo) {
   expect_refused({"verify", "sphere", "--set", "rom_address_bits=ten"}, "whole number");
   expect_refused({"verify", "sphere", "--set", "anchor=pixel"}, "one of triangle, span");
   expect_refused({"verify", "sphere", "--set", "technology=nosuch"}, "generic, ice40-hx8k");
-  expect_refused({"verify", "sphere", "--budget", "-3"}, "--budget");
+  for (const char* budget : {"-3", "0", "nan", "inf"}) {
+    expect_refused({"verify", "sphere", "--budget", budget}, "is not a number above 0");
+  }
   expect_refused({"verify", "sphere", "--stall", "101"}, "--stall");
   expect_refused({"verify", "sphere", "--rtl", "/nosuch"}, "--rtl");
   expect_refused({"verify", "sphere", "--effects", "nonsense"},
-                 "--effects: nonsense is none of scene|all");
+                 "--effects: nonsense is none of scene|all|both");
   expect_refused({"render", "sphere", "-o", file("a.png"), "--power", "lyon-4"},
                  "use --power with --arithmetic real");
   expect_refused({"render", "sphere"}, "nothing to write");
   expect_refused({"render", "sphere", "-o", file("a.jpg")}, ".png or .pfm");
-  expect_refused({"render", "sphere", "-o", "/nosuch/a.png"}, "cannot be written");
+  expect_refused({"verify", "efects/ambient"}, "did you mean effects/ambient?");
   expect_refused(
       {"render", "sphere", "--method", "phong", "--arithmetic", "fixed", "-o", file("a.png")},
       "no fixed-point form");
@@ -495,6 +606,9 @@ TEST_F(Program, HelpHasAnExampleAtEachLevel) {
     const ProcessOutput output = run(arguments);
     EXPECT_EQ(output.status, 0);
     EXPECT_NE(output.text.find("Example: phongpipe"), std::string::npos) << output.text;
+    for (const char* jargon : {"FLOAT:", "DIR:", "POSITIVE", " INT", "UINT"}) {
+      EXPECT_EQ(output.text.find(jargon), std::string::npos) << output.text;
+    }
   }
 }
 

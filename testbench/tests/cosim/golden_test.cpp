@@ -39,8 +39,8 @@ std::string measure(const std::string& scene_name, const std::string& preset) {
     frame_hash.add(result.framebuffer.color(i));
   }
   return fmt::format("{},{},{},{:016x},{},{:016x}\n", scene_name, preset,
-                     configuration_hash(resolved(hardware, frame.setup.configuration)), frame_hash.value(), result.frame_cycles,
-                     cycles_hash.value());
+                     configuration_hash(resolved(hardware, frame.setup.configuration)),
+                     frame_hash.value(), result.frame_cycles, cycles_hash.value());
 }
 
 std::vector<std::string> shipped_scenes() {

@@ -39,8 +39,9 @@ class SeededBug : public ::testing::Test {
     ASSERT_NE(at, std::string::npos) << file << " has no " << correct;
     write_text(folder_ / "hw" / file, text.replace(at, correct.size(), broken));
   }
-  VerificationResult run() {
+  VerificationResult run(Detail detail = Detail::span) {
     VerificationOptions options;
+    options.detail = detail;
     options.rtl_sources = folder_ / "hw";
     return verify(load_scene(kScene), hardware_, options);
   }
@@ -77,7 +78,8 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
   EXPECT_LT(v.rtl.first_divergence->found.color, pixel.color);
   const std::string report = report_text(v, {});
   EXPECT_NE(report.find(fmt::format("triangle {}, x {}, y {}, cycle {}, pixel",
-                                    v.rtl.first_divergence->triangle, pixel.x, pixel.y, v.rtl.first_divergence->cycle)),
+                                    v.rtl.first_divergence->triangle, pixel.x, pixel.y,
+                                    v.rtl.first_divergence->cycle)),
             std::string::npos)
       << report;
   EXPECT_NE(report.find("FAILED"), std::string::npos);
@@ -89,14 +91,29 @@ TEST_F(SeededBug, LostPixelsDoNotHangTheHarness) {
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
   EXPECT_GT(v.rtl.stream_mismatches, 0U);
-  EXPECT_NE(v.rtl.counts.failure.find("nothing has moved"), std::string::npos) << v.rtl.counts.failure;
+  EXPECT_NE(v.rtl.counts.failure.find("nothing has moved"), std::string::npos)
+      << v.rtl.counts.failure;
 }
 
 TEST_F(SeededBug, ADeadDatapathIsReportedWithItsQueues) {
   seed("pixel_datapath.sv", "assign span_ready = ", "assign span_ready = 1'b0 && ");
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
-  EXPECT_NE(v.rtl.counts.failure.find("span queue 8 of 8"), std::string::npos) << v.rtl.counts.failure;
+  EXPECT_NE(v.rtl.counts.failure.find("span queue 8 of 8"), std::string::npos)
+      << v.rtl.counts.failure;
+}
+
+TEST_F(SeededBug, PixelsForEverEndTheSimulation) {
+  seed("pixel_datapath.sv", "if (s3_ready) s3_valid <= s2_valid;",
+       "if (s3_ready) s3_valid <= 1'b1;");
+  for (const Detail detail : {Detail::span, Detail::cycle}) {
+    const VerificationResult v = run(detail);
+    EXPECT_FALSE(v.passed());
+    EXPECT_GT(v.rtl.stream_mismatches, 0U);
+    EXPECT_NE(v.rtl.counts.failure.find("pixels that no span asked for"), std::string::npos)
+        << v.rtl.counts.failure;
+    EXPECT_TRUE(v.rtl.first_divergence.has_value());
+  }
 }
 
 TEST_F(SeededBug, ABubbleBetweenSpansIsFoundByTheCycles) {

@@ -20,7 +20,7 @@ RtlBuildOptions build_options() {
 }
 
 FrameConfiguration configured(int channels, int diffuse, int specular, int address, int data,
-                                 GateSource gate) {
+                              GateSource gate) {
   FrameConfiguration c;
   c.channels = channels;
   c.diffuse_fraction_bits = diffuse;
@@ -31,8 +31,7 @@ FrameConfiguration configured(int channels, int diffuse, int specular, int addre
   return c;
 }
 
-FrameConfiguration of_blocks(FrameConfiguration c, bool diffuse, bool specular,
-                                bool depth_cue) {
+FrameConfiguration of_blocks(FrameConfiguration c, bool diffuse, bool specular, bool depth_cue) {
   c.diffuse = diffuse;
   c.specular = specular;
   c.depth_cue = depth_cue;

@@ -37,13 +37,9 @@ Colors simulated(const FrameSetup& frame, Detail detail) {
 }
 
 const Account kAccounts[] = {
-    {"Model", [](const FrameSetup& f) { return run_model(f).colors(); },
-     kModelSeeds},
-    {"BySpan", [](const FrameSetup& f) { return simulated(f, Detail::span); },
-     kSimulatedSeeds},
-    {"ByCycle",
-     [](const FrameSetup& f) { return simulated(f, Detail::cycle); },
-     kSimulatedSeeds}};
+    {"Model", [](const FrameSetup& f) { return run_model(f).colors(); }, kModelSeeds},
+    {"BySpan", [](const FrameSetup& f) { return simulated(f, Detail::span); }, kSimulatedSeeds},
+    {"ByCycle", [](const FrameSetup& f) { return simulated(f, Detail::cycle); }, kSimulatedSeeds}};
 
 // `same`: whether a random scene's picture is the same in two ways.
 class Picture : public testing::TestWithParam<Account> {
@@ -200,8 +196,8 @@ TEST_P(Picture, DoesNotDependOnTheOrderOfTriangles) {
   std::size_t compared = 0;
   for_each_scene([&](Random& random, RandomEffects e) {
     const Colors ordered = picture(e);
-    const std::vector<bool> tied = ties(
-        FrameSetup(e.scene, e.geometry, e.configuration, Effects::all), e.geometry);
+    const std::vector<bool> tied =
+        ties(FrameSetup(e.scene, e.geometry, e.configuration, Effects::all), e.geometry);
     std::vector<ScreenTriangle>& triangles = e.geometry.triangles;
     for (std::size_t i = triangles.size(); i > 1; --i) {
       std::swap(triangles[i - 1],

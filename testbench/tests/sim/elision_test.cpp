@@ -327,8 +327,7 @@ class CoarseRegisters : public testing::TestWithParam<Anchor> {
     const FrameSetup own(scene, geometry, c), all(scene, geometry, c, Effects::all);
     EXPECT_TRUE(run_model(own).colors() == run_model(all).colors());
     TriangleWork work;
-    return FrontEnd(own).set_up(0, 0, work) == SetupOutcome::ready &&
-           left_out(work.setup.plan);
+    return FrontEnd(own).set_up(0, 0, work) == SetupOutcome::ready && left_out(work.setup.plan);
   }
   static FrameConfiguration configuration(Random& random) {
     FrameConfiguration c;
@@ -387,7 +386,8 @@ TEST_P(CoarseRegisters, LeaveOutNoHighlightThatRoundingShows) {
     const double least = material.first_visible_address / material.light.specular_scale;
     geometry.triangles = {triangle_below(random, scene, material.light.terms.halfway,
                                          least - std::pow(10, random.uniform(-6, -0.5)))};
-    dim += agrees(scene, geometry, c, [](const SeriesPlan& plan) { return !is_present(plan.specular); });
+    dim += agrees(scene, geometry, c,
+                  [](const SeriesPlan& plan) { return !is_present(plan.specular); });
     ASSERT_FALSE(HasFailure());
   }
   EXPECT_GT(dim, kSeeds / 20);

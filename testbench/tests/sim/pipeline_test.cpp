@@ -125,7 +125,8 @@ TEST(Pipeline, BySpanIsByCycleForAnyEffects) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));
     const Effects effects = random.integer(0, 3) > 0 ? Effects::derived : Effects::all;
     const FrameSetup frame(e.scene, e.geometry,
-                           with_derived_blocks(e.configuration, e.scene, e.geometry, effects), effects);
+                           with_derived_blocks(e.configuration, e.scene, e.geometry, effects),
+                           effects);
     SimulationOptions options;
     options.stall_percent = random.integer(0, 1) * random.integer(1, 60);
     options.stall_seed = seed;

@@ -237,7 +237,9 @@ INSTANTIATE_TEST_SUITE_P(Light, BadSceneFile, ::testing::ValuesIn(kBadLights), k
 INSTANTIATE_TEST_SUITE_P(Object, BadSceneFile, ::testing::ValuesIn(kBadObjects), kName);
 
 TEST_F(SceneFile, ScreenSpaceTrianglesNeedNoCamera) {
-  folder_.write("t.csv", "any");
+  folder_.write("t.csv",
+                "x0,y0,z0,nx0,ny0,nz0,x1,y1,z1,nx1,ny1,nz1,x2,y2,z2,nx2,ny2,nz2\n"
+                "1,1,3,0,0,-1,9,1,3,0,0,-1,1,9,3,0,0,-1\n");
   const std::string object = "[[object]]\ntriangles = 't.csv'\n";
   EXPECT_TRUE(is_screen_space(load(kImage + kLightAt8 + object)));
   EXPECT_EQ(error(kImage + kCameraAt4 + kLightAt8 + object),

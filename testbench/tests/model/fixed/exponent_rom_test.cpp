@@ -14,7 +14,7 @@ namespace phongpipe {
 namespace {
 
 FrameConfiguration table(int address_bits, int data_bits = 8,
-                            IndexRounding rounding = IndexRounding::nearest) {
+                         IndexRounding rounding = IndexRounding::nearest) {
   FrameConfiguration configuration;
   configuration.rom_address_bits = address_bits;
   configuration.rom_data_bits = data_bits;

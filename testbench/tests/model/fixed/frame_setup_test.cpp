@@ -190,8 +190,8 @@ TEST(FrameSetup, EachMaterialsPlanHasItsOwnSeriesOnly) {
     EXPECT_EQ(is_present(plan.gate), m % 2 == 0) << "material " << m;
     EXPECT_FALSE(plan.depth || plan.depth_cue);
     const SeriesPlan& whole = all.material(0, m).plan;
-    EXPECT_TRUE(is_present(whole.diffuse) && is_present(whole.specular) &&
-                is_present(whole.gate) && whole.depth);
+    EXPECT_TRUE(is_present(whole.diffuse) && is_present(whole.specular) && is_present(whole.gate) &&
+                whole.depth);
   }
 }
 

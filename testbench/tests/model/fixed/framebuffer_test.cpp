@@ -63,8 +63,8 @@ Framebuffer under_two_lights(bool depth_test) {
   FrameConfiguration configuration;
   configuration.channels = 3;
   configuration.depth_bits = 8;
-  return Framebuffer(FrameSetup(scene, Geometry(), configuration,
-                                depth_test ? Effects::all : Effects::derived));
+  return Framebuffer(
+      FrameSetup(scene, Geometry(), configuration, depth_test ? Effects::all : Effects::derived));
 }
 
 TEST(Framebuffer, AFurtherLightIsAddedAndSaturatesEachChannelAlone) {
