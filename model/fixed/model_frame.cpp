@@ -23,11 +23,11 @@ ModelFrame run_model(const FrameSetup& frame, const Geometry& geometry, Evaluati
   TriangleWork work;
   std::uint32_t loaded = ~std::uint32_t{0};
   const auto shade = [&] {
-    spans.clear();
+    spans.resize(work.rows.size());
     std::size_t pixels = 0;
-    for (const RowSpan& row : work.rows) {
-      spans.push_back(front_end.span_walker().start(work.setup, row));
-      pixels += static_cast<std::size_t>(row.length);
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+      front_end.span_walker().start(work.setup, work.rows[i], spans[i]);
+      pixels += static_cast<std::size_t>(work.rows[i].length);
     }
     if (work.setup.plan.specular && work.setup.material->table != loaded) {
       loaded = work.setup.material->table;
