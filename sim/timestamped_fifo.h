@@ -19,17 +19,27 @@ template <typename T>
 class TimestampedFifo : public sc_core::sc_prim_channel {
  public:
   TimestampedFifo(const char* name, int depth)
-      : sc_core::sc_prim_channel(name), places_(static_cast<std::size_t>(depth)) {}
+      : sc_core::sc_prim_channel(name),
+        items_(static_cast<std::size_t>(depth)),
+        times_(static_cast<std::size_t>(depth)) {}
 
-  // Writes no earlier than `earliest`; returns the cycle of the writing. Waits for a place.
-  Cycle write(T item, Cycle earliest) {
-    while (size_ == places_.size()) wait_for(read_event_, writer_waits_);
-    Place& place = places_[(first_ + size_) % places_.size()];
-    place.item = std::move(item);
-    place.written_at = std::max(earliest, place.read_at + 1);
+  // Waits for a place; what is put there is written by write().
+  T& free_place() {
+    while (size_ == depth()) wait_for(read_event_, writer_waits_);
+    return items_[free_];
+  }
+  // Writes what is in the free place, no earlier than `earliest`; returns the cycle of the writing.
+  Cycle write(Cycle earliest) {
+    Times& times = times_[free_];
+    times.written_at = std::max(earliest, times.read_at + 1);
+    free_ = after(free_);
     ++size_;
     wake(written_event_, reader_waits_);
-    return place.written_at;
+    return times.written_at;
+  }
+  Cycle write(T item, Cycle earliest) {
+    free_place() = std::move(item);
+    return write(earliest);
   }
 
   // No more items will come.
@@ -45,19 +55,21 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
   }
   // The front item stays where it is until another one is written to its place, that is, as long as
   // its reader does not wait.
-  const T& front() const { return places_[first_].item; }
-  Cycle front_seen_from() const { return places_[first_].written_at + 1; }
+  const T& front() const { return items_[first_]; }
+  Cycle front_seen_from() const { return times_[first_].written_at + 1; }
+  // How many items lie side by side in memory, the front one first.
+  std::size_t side_by_side() const { return std::min(size_, depth() - first_); }
 
   // Takes the front item in the given cycle.
   void pop(Cycle cycle) {
-    places_[first_].read_at = cycle;
-    first_ = (first_ + 1) % places_.size();
+    times_[first_].read_at = cycle;
+    first_ = after(first_);
     --size_;
     wake(read_event_, writer_waits_);
   }
 
   std::size_t size() const { return size_; }
-  std::size_t depth() const { return places_.size(); }
+  std::size_t depth() const { return items_.size(); }
 
  private:
   void wait_for(const sc_core::sc_event& event, bool& waiting) {
@@ -70,13 +82,15 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
     waiting = false;
   }
 
-  struct Place {
-    T item{};
+  std::size_t after(std::size_t place) const { return place + 1 == depth() ? 0 : place + 1; }
+
+  struct Times {
     Cycle written_at = -1;
     Cycle read_at = -1;  // of the item before
   };
-  std::vector<Place> places_;
-  std::size_t first_ = 0, size_ = 0;
+  std::vector<T> items_;
+  std::vector<Times> times_;  // of the places
+  std::size_t first_ = 0, free_ = 0, size_ = 0;
   bool closed_ = false;
   bool writer_waits_ = false, reader_waits_ = false;
   sc_core::sc_event written_event_, read_event_;

@@ -44,6 +44,13 @@ class Framebuffer {
     return true;
   }
 
+  // Has the pixels of a row on their way to the cache when they are asked for.
+  void prefetch(const RowSpan& row) const {
+    const Cell* const first = &cells_[index_of(row.x, row.y)];
+    __builtin_prefetch(first);
+    __builtin_prefetch(first + row.length - 1);
+  }
+
   // The one or the other, as the pass of the span has it.
   bool take(bool base, int x, int y, std::uint32_t depth, std::uint32_t triangle,
             std::uint32_t color) {

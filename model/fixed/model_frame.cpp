@@ -51,7 +51,8 @@ bool SpanStream::next_batch() {
   }
   std::size_t pixels = 0;
   for (; next_row_ < work_.rows.size() && spans_.size() < kLargestBatch; ++next_row_) {
-    spans_.push_back(front_end_.span_walker().start(work_.setup, work_.rows[next_row_]));
+    spans_.emplace_back();
+    front_end_.span_walker().start(work_.setup, work_.rows[next_row_], spans_.back());
     pixels += static_cast<std::size_t>(spans_.back().row.length);
   }
   if (is_present(work_.setup.plan.specular) && work_.setup.material->table != loaded_table_) {

@@ -24,9 +24,10 @@ SpanWalker::SpanWalker(const FrameSetup& frame)
       specular_limit_(std::ldexp(1.0, configuration_.specular_width() - 1) - 1),
       cue_limit_(std::ldexp(1.0, kCueWidth - 1) - 1) {}
 
-SeriesStart SpanWalker::start_series(const FixedQuadratic& t, int x, int y) const {
-  return {round_off(t.value(x, y), dropped_bits_), round_off(t.difference(x, y), dropped_bits_),
-          round_off(wrap_mul(2, t.t5), dropped_bits_)};
+void SpanWalker::start_series(const FixedQuadratic& t, int x, int y, SeriesStart& start) const {
+  start.v = round_off(t.value(x, y), dropped_bits_);
+  start.d1 = round_off(t.difference(x, y), dropped_bits_);
+  start.d2 = round_off(wrap_mul(2, t.t5), dropped_bits_);
 }
 
 bool SpanWalker::series_fits(const FixedQuadratic& t, int x, int y, int length,
@@ -38,40 +39,41 @@ bool SpanWalker::series_fits(const FixedQuadratic& t, int x, int y, int length,
   const double d1 = real(t.t5) * (2 * x + 1) + real(t.t4) * y + real(t.t2);
   constexpr double kLargest = 0x1p62;
   if (std::fabs(v) > kLargest || (length > 1 && std::fabs(d1) > kLargest)) return false;
-  const SeriesStart start = start_series(t, x, y);
+  SeriesStart start;
+  start_series(t, x, y, start);
   return within(real(start.v), real(start.d1), real(start.d2), length, limit);
 }
 
-Span SpanWalker::start(const TriangleSetup& setup, const RowSpan& row) const {
+void SpanWalker::start(const TriangleSetup& setup, const RowSpan& row, Span& span) const {
   const int x = row.x - setup.x, y = row.y - setup.y;
-  Span span;
+  const SeriesPlan& plan = setup.plan;
   span.row = row;
   span.triangle = setup.triangle;
-  span.base = setup.pass == 0;
-  span.step_diffuse = setup.plan.light() == SeriesForm::fitted;
-  span.step_specular = setup.plan.specular == SeriesForm::fitted;
-  span.highlight = is_present(setup.plan.specular);
   span.table = setup.material->table;
+  span.base = setup.pass == 0;
+  span.step_diffuse = row.lit && plan.light() == SeriesForm::fitted;
+  span.step_specular = row.lit && plan.specular == SeriesForm::fitted;
+  span.highlight = row.lit && is_present(plan.specular);
   span.level = setup.material->level;
-  if (setup.plan.depth) {
-    span.depth = setup.depth.value(x, y);
-    span.depth_step = setup.depth.a;
+  const auto start_or_clear = [&](bool used, const FixedQuadratic& t, SeriesStart& start) {
+    if (used) {
+      start_series(t, x, y, start);
+    } else {
+      start = SeriesStart();
+    }
+  };
+  start_or_clear(span.highlight, setup.specular, span.specular);
+  for (int c = 0; c < 3; ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    SeriesStart& diffuse = span.diffuse[channel];
+    start_or_clear(row.lit && c < configuration_.channels, setup.diffuse[channel], diffuse);
+    if (!row.lit) diffuse.v = span.level[channel];
   }
-  if (setup.plan.depth_cue) {
-    span.cue = {round_off(setup.cue_factor.value(x, y), dropped_bits_),
-                round_off(setup.cue_factor.a, dropped_bits_), 0};
-  }
-  if (!row.lit) {
-    span.step_diffuse = span.step_specular = span.highlight = false;
-    for (std::size_t c = 0; c < span.level.size(); ++c) span.diffuse[c].v = span.level[c];
-    return span;
-  }
-  for (std::size_t c = 0; c < static_cast<std::size_t>(configuration_.channels); ++c) {
-    span.diffuse[c] = start_series(setup.diffuse[c], x, y);
-  }
-  if (is_present(setup.plan.gate)) span.gate = start_series(setup.gate, x, y);
-  if (is_present(setup.plan.specular)) span.specular = start_series(setup.specular, x, y);
-  return span;
+  start_or_clear(row.lit && is_present(plan.gate), setup.gate, span.gate);
+  const FixedLinear& factor = setup.cue_factor;
+  start_or_clear(plan.depth_cue, {factor.c, factor.b, factor.a, 0, 0, 0}, span.cue);
+  span.depth = plan.depth ? setup.depth.value(x, y) : 0;
+  span.depth_step = plan.depth ? setup.depth.a : 0;
 }
 
 bool SpanWalker::fits(const TriangleSetup& setup, const RowSpan& row) const {

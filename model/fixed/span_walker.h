@@ -12,14 +12,19 @@ class SpanWalker {
 
   // v, Δ and ΔΔ at the first pixel of the row, evaluated exactly from the rounded T_i and, with
   // Anchor::span, rounded to the datapath's fraction.
-  Span start(const TriangleSetup& setup, const RowSpan& row) const;
+  void start(const TriangleSetup& setup, const RowSpan& row, Span& span) const;
+  Span start(const TriangleSetup& setup, const RowSpan& row) const {
+    Span span;
+    start(setup, row, span);
+    return span;
+  }
 
   // False where the value of some pixel of the row does not fit its register, so that the datapath
   // would wrap to a wrong colour.
   bool fits(const TriangleSetup& setup, const RowSpan& row) const;
 
  private:
-  SeriesStart start_series(const FixedQuadratic& t, int x, int y) const;
+  void start_series(const FixedQuadratic& t, int x, int y, SeriesStart& start) const;
   bool series_fits(const FixedQuadratic& t, int x, int y, int length, double limit) const;
 
   FrameConfiguration configuration_;

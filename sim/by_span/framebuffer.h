@@ -15,20 +15,17 @@ class Framebuffer : public sc_core::sc_module {
   // The cycles the next pixel of the stream takes.
   Cycle take(const Span& span, int i, const ShadedPixel& pixel) {
     count_test(span, 1);
-    const std::uint32_t depth = phongpipe::Framebuffer::depth(context_.frame, span, i);
-    const bool taken = memory_.take(span.base, pixel.x, pixel.y, depth, span.triangle, pixel.color);
-    return context_.framebuffer_cycles(span.base, taken, place_++);
+    return take(span, i, pixel.x, pixel.y, pixel.color);
   }
   // The same for each pixel of a span.
   void take(const Span& span, const std::uint32_t* colors, Cycle* cycles) {
-    const auto length = static_cast<std::size_t>(span.row.length);
-    count_test(span, length);
-    taken_.resize(std::max(taken_.size(), length));
-    memory_.take_span(context_.frame, span, colors, taken_.data());
-    for (std::size_t i = 0; i < length; ++i) {
-      cycles[i] = context_.framebuffer_cycles(span.base, taken_[i] != 0, place_++);
+    count_test(span, static_cast<std::size_t>(span.row.length));
+    for (int i = 0; i < span.row.length; ++i) {
+      cycles[i] = take(span, i, span.row.x + i, span.row.y, colors[i]);
     }
   }
+
+  void prefetch(const Span& span) const { memory_.prefetch(span.row); }
 
   phongpipe::Framebuffer take_memory() {
     if (depth_test_) context_.result.depth_additions = depth_test_->operations.additions;
@@ -36,6 +33,11 @@ class Framebuffer : public sc_core::sc_module {
   }
 
  private:
+  Cycle take(const Span& span, int i, int x, int y, std::uint32_t color) {
+    const std::uint32_t depth = phongpipe::Framebuffer::depth(context_.frame, span, i);
+    const bool taken = memory_.take(span.base, x, y, depth, span.triangle, color);
+    return context_.framebuffer_cycles(span.base, taken, place_++);
+  }
   void count_test(const Span& span, std::size_t pixels) {
     if (depth_test_ && span.base) depth_test_->operations.additions += pixels;
   }
@@ -44,7 +46,6 @@ class Framebuffer : public sc_core::sc_module {
   FrameContext& context_;
   phongpipe::Framebuffer memory_;
   std::uint32_t place_ = 0;
-  std::vector<std::uint8_t> taken_;
 };
 
 }  // namespace phongpipe::by_span

@@ -10,31 +10,41 @@ Cycle PixelDatapath::load_table(std::uint32_t table, Cycle asked) {
   return std::max(asked, timing_.out() + 1) + words;
 }
 
+std::size_t PixelDatapath::shade_waiting() {
+  const Span* const spans = &spans_.front();
+  std::size_t count = 0, pixels = 0;
+  for (; count < spans_.side_by_side() && !needs_table(spans[count]); ++count) {
+    pixels += static_cast<std::size_t>(spans[count].row.length);
+    framebuffer_.prefetch(spans[count]);
+  }
+  if (colors_.size() < pixels + phongpipe::PixelDatapath::kLanes) {
+    colors_.resize(pixels + phongpipe::PixelDatapath::kLanes);
+    cycles_.resize(colors_.size());
+    pixels_.resize(colors_.size());
+  }
+  values_.shade(spans, count, colors_.data());
+  return count;
+}
+
 void PixelDatapath::run() {
-  std::vector<std::uint32_t> colors;
-  std::vector<Cycle> cycles;
-  std::vector<ShadedPixel> pixels;
   while (spans_.wait_for_item()) {
-    const Span& span = spans_.front();
-    const RowSpan row = span.row;
-    Cycle asked = spans_.front_seen_from();
-    if (span.highlight && span.table != loaded_) asked = load_table(span.table, asked);
-    if (colors.size() < phongpipe::PixelDatapath::padded(row.length)) {
-      colors.resize(phongpipe::PixelDatapath::padded(row.length));
-      cycles.resize(colors.size());
-      pixels.resize(colors.size());
+    Cycle ready = 0;  // from which the next span may enter
+    const Span& first = spans_.front();
+    if (needs_table(first)) ready = load_table(first.table, spans_.front_seen_from());
+    std::size_t end = 0;
+    for (std::size_t count = shade_waiting(); count > 0; --count) {
+      const Span& span = spans_.front();
+      const auto length = static_cast<std::size_t>(span.row.length);
+      Cycle* const cycles = cycles_.data() + end;
+      blocks_.shade(span);
+      framebuffer_.take(span, colors_.data() + end, cycles);
+      spans_.pop(timing_.next(std::max(ready, spans_.front_seen_from()), length, cycles));
+      for (int i = 0; i < span.row.length; ++i, ++end) {
+        pixels_[end] = {static_cast<std::uint16_t>(span.row.x + i),
+                        static_cast<std::uint16_t>(span.row.y), colors_[end]};
+      }
     }
-    values_.shade(span, colors.data());
-    blocks_.shade(span);
-    framebuffer_.take(span, colors.data(), cycles.data());
-    const Cycle taken = timing_.next(asked, static_cast<std::size_t>(row.length), cycles.data());
-    spans_.pop(taken);
-    for (int i = 0; i < row.length; ++i) {
-      pixels[static_cast<std::size_t>(i)] = {static_cast<std::uint16_t>(row.x + i),
-                                             static_cast<std::uint16_t>(row.y),
-                                             colors[static_cast<std::size_t>(i)]};
-    }
-    context_.record(pixels.data(), cycles.data(), static_cast<std::size_t>(row.length));
+    context_.record(pixels_.data(), cycles_.data(), end);
   }
   context_.result.frame_cycles = timing_.end();
   context_.result.pixel_operations = blocks_.operations();

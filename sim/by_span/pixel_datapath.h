@@ -25,8 +25,12 @@ class PixelDatapath : public sc_core::sc_module {
 
  private:
   void run();
+  bool needs_table(const Span& span) const { return span.highlight && span.table != loaded_; }
   // Empties the datapath and loads the table; the cycle from which the span may enter.
   Cycle load_table(std::uint32_t table, Cycle asked);
+  // Shades those waiting spans that lie side by side and have their table; their number, at
+  // least 1.
+  std::size_t shade_waiting();
 
   FrameContext& context_;
   TimestampedFifo<Span>& spans_;
@@ -35,6 +39,10 @@ class PixelDatapath : public sc_core::sc_module {
   phongpipe::PixelDatapath values_;
   PixelTiming timing_;
   std::uint32_t loaded_ = ~std::uint32_t{0};
+  // Of the pixels of the spans shaded last.
+  std::vector<std::uint32_t> colors_;
+  std::vector<Cycle> cycles_;
+  std::vector<ShadedPixel> pixels_;
 };
 
 }  // namespace phongpipe::by_span

@@ -17,11 +17,12 @@ class SetupEngine : public sc_core::sc_module {
  private:
   void run() {
     Cycle written = -1, busy = 0;
+    auto work = std::make_shared<TriangleWork>();
     for (TriangleOrder next(context_.front_end); !next.done(); next.advance()) {
-      auto work = std::make_shared<TriangleWork>();
       const SetupOutcome outcome = context_.set_up(next, *work, busy);
       if (outcome != SetupOutcome::ready) continue;
       written = triangles_.write(std::move(work), written + busy);
+      work = std::make_shared<TriangleWork>();
       busy = 0;
     }
     triangles_.close();

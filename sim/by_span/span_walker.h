@@ -24,8 +24,8 @@ class SpanWalker : public sc_core::sc_module {
       triangles_.pop(taken);
       Cycle earliest = taken + configuration.walker_triangle_cycles;
       for (const RowSpan& row : work->rows) {
-        const Cycle written =
-            spans_.write(context_.front_end.span_walker().start(work->setup, row), earliest);
+        context_.front_end.span_walker().start(work->setup, row, spans_.free_place());
+        const Cycle written = spans_.write(earliest);
         earliest = written + configuration.walker_row_cycles;
         free_from = written + 1;
       }

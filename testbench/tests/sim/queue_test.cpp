@@ -63,7 +63,13 @@ class AheadOfTheClock : public sc_core::sc_module {
     Cycle earliest = 0;
     for (std::size_t i = 0; i < scenario_.making.size(); ++i) {
       if (i > 0) earliest = times.written.back() + scenario_.making[i];
-      times.written.push_back(fifo_.write(static_cast<int>(i), earliest));
+      const auto item = static_cast<int>(i);
+      if (i % 2 == 0) {
+        times.written.push_back(fifo_.write(item, earliest));
+      } else {
+        fifo_.free_place() = item;
+        times.written.push_back(fifo_.write(earliest));
+      }
     }
     fifo_.close();
   }
@@ -73,11 +79,17 @@ class AheadOfTheClock : public sc_core::sc_module {
       if (i > 0) cycle = std::max(cycle, times.read.back() + scenario_.using_up[i]);
       times.read.push_back(cycle);
       times.items.push_back(fifo_.front());
+      for (std::size_t k = 0; k < fifo_.side_by_side(); ++k) {
+        EXPECT_EQ((&fifo_.front())[k], times.items.back() + static_cast<int>(k));
+      }
+      most_side_by_side_ = std::max(most_side_by_side_, fifo_.side_by_side());
       fifo_.pop(cycle);
     }
+    EXPECT_EQ(most_side_by_side_, fifo_.depth()) << "the writer runs ahead until it is full";
   }
   Scenario scenario_;
   TimestampedFifo<int> fifo_;
+  std::size_t most_side_by_side_ = 0;
 };
 
 class WithTheClock : public sc_core::sc_module {

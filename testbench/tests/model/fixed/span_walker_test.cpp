@@ -216,6 +216,47 @@ TEST(SpanWalker, LooksAtEverySeriesInUse) {
   }
 }
 
+// Every field, of channels and series that are not in use too.
+void expect_same(const Span& a, const Span& b) {
+  const auto fields = [](const Span& s) {
+    std::vector<std::int64_t> all = {s.row.x,         s.row.y,     s.row.length, s.row.lit,
+                                     s.triangle,      s.table,     s.base,       s.step_diffuse,
+                                     s.step_specular, s.highlight, s.depth,      s.depth_step};
+    all.insert(all.end(), s.level.begin(), s.level.end());
+    for (const SeriesStart* start :
+         {&s.diffuse[0], &s.diffuse[1], &s.diffuse[2], &s.specular, &s.gate, &s.cue}) {
+      all.insert(all.end(), {start->v, start->d1, start->d2});
+    }
+    return all;
+  };
+  EXPECT_EQ(fields(a), fields(b));
+}
+
+TEST(SpanWalker, LeavesNothingOfTheSpanThatWasThere) {
+  Span used;
+  for (unsigned seed = kSeed; seed < kSeed + 100; ++seed) {
+    Random random(seed);
+    const RandomEffects e = random_effects(random);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));
+    const FrameSetup frame(e.scene, e.geometry, suit_scene(e.configuration, e.scene, e.geometry),
+                           24);
+    const FrontEnd front_end(frame, e.geometry);
+    TriangleWork work;
+    for (TriangleOrder next(front_end); !next.done(); next.advance()) {
+      if (front_end.set_up(next.triangle(), next.pass(), work) != SetupOutcome::ready) continue;
+      for (const RowSpan& row : work.rows) {
+        front_end.span_walker().start(work.setup, row, used);
+        expect_same(used, front_end.span_walker().start(work.setup, row));
+      }
+      // As full as can be.
+      used.specular = used.gate = used.cue = {1, 2, 3};
+      used.diffuse.fill(used.gate);
+      used.depth = used.depth_step = 4;
+    }
+    if (HasFailure()) return;
+  }
+}
+
 // The datapath may hold the registers of what is not stepped, and take the level for the light
 // where there is no diffuse series.
 TEST(SpanWalker, WhatIsNotSteppedHasNoDifferences) {
