@@ -42,7 +42,8 @@ inline FrameConfiguration random_configuration(Random& random) {
 inline HighlightTable random_table(Random& random, const FrameConfiguration& c) {
   HighlightTable table;
   for (int channel = 0; channel < c.channels; ++channel) {
-    table.roms.emplace_back(c, random.uniform(0, 1.5), random.uniform(0, 200));
+    const double specular = random.uniform(0, 1.5), shininess = random.uniform(0, 200);
+    table.roms.emplace_back(c, specular, shininess);
   }
   return table;
 }

@@ -20,7 +20,7 @@ struct RandomEffects {
 inline Color random_light(Random& random, bool grey) {
   const auto channel = [&random] { return random.integer(0, 16) / 16.0; };
   if (grey) return Color::Constant(channel());
-  return Color(channel(), channel(), channel());
+  return Color{channel(), channel(), channel()};
 }
 
 // A square mesh of 2 · cells² triangles that share their corners.
@@ -34,7 +34,8 @@ inline void tile(Random& random, const Image& image, int cells, Geometry& geomet
     v.z = random.uniform(0, 1);
     v.position = Vec3(0, 0, -v.z);
     v.normal = random.unit_near(Vec3(0, 0, 1), 30);
-    v.eye = random.unit_near(Vec3(0, 0, 1), 20) * random.uniform(2, 4);
+    v.eye = random.unit_near(Vec3(0, 0, 1), 20);
+    v.eye *= random.uniform(2, 4);
   }
   const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
     geometry.triangles.emplace_back();

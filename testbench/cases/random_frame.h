@@ -2,43 +2,13 @@
 // one light, with materials that alternate.
 #pragma once
 
-#include <Eigen/Geometry>
-#include <cmath>
 #include <cstdint>
-#include <random>
+#include <cstdlib>
 
 #include "model/fixed/frame_setup.h"
+#include "testbench/system/random.h"
 
 namespace phongpipe {
-
-class Random {
- public:
-  explicit Random(unsigned seed) : generator_(seed) {}
-
-  int integer(int low, int high) {
-    return std::uniform_int_distribution<int>(low, high)(generator_);
-  }
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
-  std::int64_t bits() {  // 64 of them
-    return static_cast<std::int64_t>(generator_());
-  }
-  Vec3 unit() {
-    for (;;) {
-      const Vec3 v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-    }
-  }
-  Vec3 unit_near(const Vec3& axis, double largest_degrees) {
-    const Vec3 side = axis.cross(unit()).normalized();
-    const double angle = uniform(0, largest_degrees) * 3.14159265358979323846 / 180;
-    return std::cos(angle) * axis + std::sin(angle) * side;
-  }
-
- private:
-  std::mt19937_64 generator_;
-};
 
 // The configuration with the blocks that the scene's effects call for, or all. Channels and a gate
 // that is off stay as they are.
@@ -86,7 +56,8 @@ inline ScreenTriangle random_triangle(Random& random, const Image& image, double
       vertex.z = random.uniform(0, 1);
       vertex.position = Vec3(0, 0, -vertex.z);  // 5 to 6 before the default camera
       vertex.normal = random.unit_near(axis, 30);
-      vertex.eye = random.unit_near(Vec3(0, 0, 1), 20) * random.uniform(2, 4);
+      vertex.eye = random.unit_near(Vec3(0, 0, 1), 20);
+      vertex.eye *= random.uniform(2, 4);
     }
     // Slivers have gradients beyond what a register holds; they have tests of their own.
   } while (std::llabs(signed_area(triangle)) <

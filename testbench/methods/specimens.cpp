@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "model/fixed/coverage.h"
+#include "testbench/system/random.h"
 
 namespace phongpipe {
 namespace {
@@ -14,19 +14,6 @@ namespace {
 constexpr double kPi = 3.14159265358979323846, kDegree = kPi / 180;
 constexpr double kSide = 40;  // of a triangle, in pixels
 constexpr int kImageSize = 64;
-
-// The standard library's distributions differ between compilers; these do not.
-class Random {
- public:
-  explicit Random(std::uint32_t seed) : generator_(seed) {}
-
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(generator_()) / 4294967296.0);
-  }
-
- private:
-  std::mt19937 generator_;
-};
 
 // The unit vector `tilt` from a unit axis.
 Vec3 tilted(const Vec3& axis, double tilt, double around) {

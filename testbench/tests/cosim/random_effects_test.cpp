@@ -12,6 +12,7 @@
 #include "model/files/scene_file.h"
 #include "model/scene/input_error.h"
 #include "testbench/cosim/verification.h"
+#include "testbench/system/random.h"
 
 namespace phongpipe {
 namespace {
@@ -46,12 +47,10 @@ class RandomScene {
 
   SeriesFit fit() { return static_cast<SeriesFit>(whole(0, 3)); }
   bool chance(double share) { return between(0, 1) < share; }
-  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  int whole(int low, int high) { return random_.integer(low, high); }
 
  private:
-  double between(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
+  double between(double low, double high) { return random_.uniform(low, high); }
   std::string color(const char* key, double low, double high) {
     if (grey_) return fmt::format("{} = {:.3f}\n", key, between(low, high));
     return fmt::format("{} = [{:.3f}, {:.3f}, {:.3f}]\n", key, between(low, high),
@@ -101,7 +100,7 @@ class RandomScene {
            part("specular", 0.7) + fmt::format("shininess = {}\n", shininess[whole(0, 4)]);
   }
 
-  std::mt19937 random_;
+  Random random_;
   bool grey_ = false;
   int materials_ = 1;
 };

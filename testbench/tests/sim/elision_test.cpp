@@ -348,7 +348,7 @@ TEST_P(CoarseRegisters, LeaveOutNoLightThatRoundingLetsThrough) {
     // Channels of unlike scales, or none, where the gate's series alone decides.
     geometry.materials = {grey_material(0, 0.8, 1)};
     if (random.integer(0, 3) > 0) {
-      geometry.materials[0].diffuse = Color(random.uniform(0.1, 1), random.uniform(0, 0.1), 0);
+      geometry.materials[0].diffuse = Color{random.uniform(0.1, 1), random.uniform(0, 0.1), 0};
     }
     geometry.triangles = {triangle_below(random, scene, -scene.lights.front().direction,
                                          -std::pow(10, random.uniform(-6, -0.5)))};

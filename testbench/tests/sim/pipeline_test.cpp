@@ -103,8 +103,8 @@ TEST(Pipeline, BySpanIsByCycleForAnyConfiguration) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Scene scene = lit_scene(96, 64);
-    const Geometry geometry =
-        random_geometry(random, scene, random.integer(1, 40), random.uniform(2, 20));
+    const int triangles = random.integer(1, 40);
+    const Geometry geometry = random_geometry(random, scene, triangles, random.uniform(2, 20));
     FrameConfiguration datapath;
     datapath.rom_address_bits = 6;  // short loads, so that other waits show
     const FrameSetup frame(scene, geometry, datapath);

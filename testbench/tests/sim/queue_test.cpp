@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <memory>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "sim/clocked_fifo.h"
 #include "sim/timestamped_fifo.h"
+#include "testbench/system/random.h"
 
 namespace phongpipe {
 namespace {
@@ -138,10 +138,8 @@ void expect_times(const Times& times, const Times& expected, const std::string& 
 
 TEST(Queues, KeepTheTimeOfARegisteredQueue) {
   SCOPED_TRACE(kSeed);
-  std::mt19937 generator(kSeed);
-  const auto pick = [&generator](int low, int high) {
-    return std::uniform_int_distribution<int>(low, high)(generator);
-  };
+  Random random(kSeed);
+  const auto pick = [&random](int low, int high) { return random.integer(low, high); };
   sc_core::sc_clock clk("clk", sc_core::sc_time(1, sc_core::SC_NS), 0.5,
                         sc_core::sc_time(1, sc_core::SC_NS));
   std::vector<Times> expected;

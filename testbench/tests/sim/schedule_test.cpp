@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <random>
 #include <vector>
+
+#include "testbench/system/random.h"
 
 namespace phongpipe {
 namespace {
@@ -138,10 +139,8 @@ void expect_possible(const Dataflow& graph, const PipelineConfiguration& c) {
 TEST(Schedule, LiesBetweenItsBoundsOnRandomGraphs) {
   constexpr unsigned kSeed = 5;
   SCOPED_TRACE(kSeed);
-  std::mt19937 generator(kSeed);
-  const auto pick = [&generator](int low, int high) {
-    return std::uniform_int_distribution<int>(low, high)(generator);
-  };
+  Random random(kSeed);
+  const auto pick = [&random](int low, int high) { return random.integer(low, high); };
   for (int i = 0; i < 300; ++i) {
     Dataflow graph;
     const int nodes = pick(1, 60);

@@ -15,7 +15,7 @@ namespace phongpipe {
 namespace {
 
 constexpr unsigned kFirstSeed = 211;
-constexpr unsigned kSeeds = 3000;
+constexpr unsigned kSeeds = 4000;
 
 // Above the plane of random_triangle's positions, which are all near (0, 0, −½): they are moved to
 // where they are on the screen, 100 pixels to a unit.
@@ -31,7 +31,7 @@ Light random_spot(Random& random) {
   Light light;
   light.type = LightType::spot;
   light.position =
-      Vec3(random.uniform(-0.5, 1.5), random.uniform(-1.5, 0.5), random.uniform(0.3, 2));
+      Vec3{random.uniform(-0.5, 1.5), random.uniform(-1.5, 0.5), random.uniform(0.3, 2)};
   light.direction = random.unit_near(Vec3(0, 0, -1), 60);
   light.spot_cutoff_degrees = random.uniform(2, 90);
   return light;

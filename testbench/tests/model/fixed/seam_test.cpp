@@ -30,8 +30,9 @@ struct Neighbours {
     dx = random.integer(-1, 1);
     dy = random.integer(3, 6);
     const ScreenVertex from = vertex(x, y), to = vertex(x + kSteps * dx, y + kSteps * dy);
-    const ScreenVertex left = vertex(random.integer(0, 8), random.integer(0, kSize - 1));
-    const ScreenVertex right = vertex(random.integer(54, 62), random.integer(0, kSize - 1));
+    const int left_x = random.integer(0, 8), left_y = random.integer(0, kSize - 1);
+    const int right_x = random.integer(54, 62), right_y = random.integer(0, kSize - 1);
+    const ScreenVertex left = vertex(left_x, left_y), right = vertex(right_x, right_y);
     geometry.materials = {grey_material(0.9, 0.5, 20)};
     geometry.triangles = {{{from, to, left}, 0}, {{right, to, from}, 0}};
   }

@@ -43,7 +43,7 @@ Geometry random_mesh(Random& random) {
       v.z = random.uniform(0, 1);
       v.normal = random.unit_near(Vec3(0, 0, 1), 45);
       v.eye = random.unit_near(Vec3(0, 0, 1), 30) * random.uniform(2, 4);
-      v.position = Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      v.position = Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     }
   }
   Geometry geometry;

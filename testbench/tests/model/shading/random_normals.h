@@ -4,9 +4,9 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <random>
 
 #include "model/shading/scalar.h"
+#include "testbench/system/random.h"
 
 namespace phongpipe {
 
@@ -14,19 +14,10 @@ using Vec = Vector3<double>;
 
 constexpr double kDegrees = 3.14159265358979323846 / 180;
 
-class RandomNormals {
+class RandomNormals : public Random {
  public:
-  explicit RandomNormals(unsigned seed) : generator_(seed) {}
+  using Random::Random;
 
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
-  Vec unit() {
-    for (;;) {
-      const Vec v(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
-      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-    }
-  }
   // `angle` from a random axis, roughly evenly around it; the first one's turn is below `turn`.
   // Radians.
   std::array<Vec, 3> cone(double angle, double turn) {
@@ -40,9 +31,6 @@ class RandomNormals {
     }
     return result;
   }
-
- private:
-  std::mt19937 generator_;
 };
 
 }  // namespace phongpipe

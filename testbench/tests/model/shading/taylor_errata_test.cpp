@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 #include <string>
 
 #include "model/shading/taylor.h"
+
+#include "testbench/system/random.h"
 
 namespace phongpipe {
 namespace {
@@ -94,15 +95,12 @@ double difference_of(std::size_t i, const Six& t, const Six& expected) {
   return std::fabs(t[i] - expected[i]) / size;
 }
 
-Linear<Vec> random_linear(std::mt19937& generator) {
-  std::uniform_real_distribution<double> component(-1, 1), length(0.5, 2);
-  const auto vector = [&] {
-    const double x = component(generator), y = component(generator);
-    return Vec(x, y, component(generator));
-  };
+Linear<Vec> random_linear(Random& random) {
+  const auto component = [&random] { return random.uniform(-1, 1); };
+  const auto vector = [&] { return Vec{component(), component(), component()}; };
   Vec c = vector();
   while (c.norm() < 0.1) c = vector();
-  const double size = length(generator);
+  const double size = random.uniform(0.5, 2);
   return {vector(), vector(), size * c.normalized()};
 }
 
@@ -118,10 +116,10 @@ class PaperErrata : public testing::TestWithParam<Erratum> {};
 TEST_P(PaperErrata, OnlyTheCorrectedFormAgrees) {
   SCOPED_TRACE(kSeed);
   const auto& [name, printed, finite, coefficient] = GetParam();
-  std::mt19937 generator(kSeed);
+  Random random(kSeed);
   double worst_printed = 0;
   for (int i = 0; i < kCases; ++i) {
-    const Linear<Vec> normal = random_linear(generator), halfway = random_linear(generator);
+    const Linear<Vec> normal = random_linear(random), halfway = random_linear(random);
     const NormalExpansion<double> expansion(normal);
     const Vec light = halfway.c.normalized();
     const Six ours = six(finite ? expansion.finite(halfway) : expansion.infinite(light));

@@ -8,9 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
+
+#include "testbench/system/random.h"
 
 namespace phongpipe {
 namespace {
@@ -80,30 +81,16 @@ std::string text(const Six& t) {
   return result;
 }
 
-class Random {
- public:
-  explicit Random(unsigned seed) : generator_(seed) {}
-  double uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(generator_);
-  }
-  Vec vector() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
-  Vec unit() {
-    for (;;) {
-      const Vec v = vector();
-      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-    }
-  }
-  Vec unit_near(const Vec& axis, double largest_angle) {  // uniform in angle, not in area
-    const Vec side = axis.cross(unit()).normalized();
-    const double angle = uniform(0, largest_angle);
-    return std::cos(angle) * axis + std::sin(angle) * side;
-  }
-  // Of any size and steepness that keeps C away from 0.
-  Linear<Vec> linear() { return {vector(), vector(), uniform(0.5, 2) * unit()}; }
+Vec random_vector(Random& random) {
+  return Vec{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+}
 
- private:
-  std::mt19937 generator_;
-};
+// Of any size and steepness that keeps C away from 0.
+Linear<Vec> random_linear(Random& random) {
+  const Vec a = random_vector(random), b = random_vector(random);
+  const double length = random.uniform(0.5, 2);
+  return {a, b, length * random.unit()};
+}
 
 constexpr unsigned kSeed = 1986;
 constexpr int kCases = 2000;
@@ -114,7 +101,7 @@ TEST(NormalExpansion, InfiniteIsTheTruncatedPowerSeries) {
   Random random(kSeed);
   double worst = 0;
   for (int i = 0; i < kCases; ++i) {
-    const Linear<Vec> n = random.linear();
+    const Linear<Vec> n = random_linear(random);
     const Vec light = random.unit();
     const Six t = six(NormalExpansion<double>(n).infinite(light));
     const Six expected = series_of_cosine(n, {Vec::Zero(), Vec::Zero(), light});
@@ -131,7 +118,7 @@ TEST(NormalExpansion, FiniteIsTheTruncatedPowerSeries) {
   Random random(kSeed);
   double worst = 0;
   for (int i = 0; i < kCases; ++i) {
-    const Linear<Vec> n = random.linear(), m = random.linear();
+    const Linear<Vec> n = random_linear(random), m = random_linear(random);
     const Six t = six(NormalExpansion<double>(n).finite(m));
     const Six expected = series_of_cosine(n, m);
     ASSERT_LT(relative_difference(t, expected), kAgree) << "case " << i << "\n"
@@ -149,8 +136,8 @@ TEST(NormalExpansion, HoldsAboutACornerAsWellAsAboutTheCentre) {
   for (int i = 0; i < kCases; ++i) {
     const Vec axis = random.unit(), light = random.unit();
     std::array<Vec, 3> n, m;
-    for (Vec& normal : n) normal = random.unit_near(axis, 0.7);
-    for (Vec& halfway : m) halfway = random.unit_near(axis, 0.3);
+    for (Vec& normal : n) normal = random.unit_near(axis, 40);
+    for (Vec& halfway : m) halfway = random.unit_near(axis, 17);
     const std::array<double, 3> x = {0, random.uniform(10, 40), random.uniform(-5, 5)};
     const std::array<double, 3> y = {0, random.uniform(-5, 5), random.uniform(10, 40)};
     for (const bool corner : {true, false}) {
@@ -182,7 +169,7 @@ TEST(NormalExpansion, DoesNotDependOnTheLengthOfTheNormals) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
   for (int i = 0; i < kCases; ++i) {
-    const Linear<Vec> n = random.linear(), m = random.linear();
+    const Linear<Vec> n = random_linear(random), m = random_linear(random);
     const double k = random.uniform(0.01, 100);
     const Linear<Vec> scaled = {k * n.a, k * n.b, k * n.c};
     const Vec light = random.unit();

@@ -109,7 +109,7 @@ TEST(HastErrata, TheHalfwayAngleMayBeTheLargerOne) {
   const Vec3 n = Vec3(0, 1, 0.05).normalized();
   EXPECT_GT(n.dot(l), 0);
   EXPECT_GT(angle(n, (l + v).normalized()), angle(mirrored(l, n), v));
-  std::mt19937 random(1);
+  Random random(1);
   for (int i = 0; i < 10000; ++i) {
     const Vec3 a = direction_within(90, random), b = direction_within(90, random);
     const Vec3 c = direction_within(90, random);

@@ -6,11 +6,11 @@
 #include <limits>
 #include <memory>
 #include <ostream>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "model/shading/methods/shading_method.h"
+#include "testbench/system/random.h"
 
 namespace phongpipe {
 
@@ -110,15 +110,15 @@ inline double largest_difference(const OneTriangle& scene, std::string_view meth
 }
 
 // A direction at most `degrees` from +z.
-inline Vec3 direction_within(double degrees, std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(0, 1);
-  const double angle = degrees * kDegree * unit(random), turn = 360 * kDegree * unit(random);
+inline Vec3 direction_within(double degrees, Random& random) {
+  const double angle = random.uniform(0, degrees * kDegree);
+  const double turn = random.uniform(0, 360 * kDegree);
   return {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)};
 }
 
 // Random normals that spread at most `degrees` from one another.
 inline OneTriangle random_triangle(double degrees, unsigned seed) {
-  std::mt19937 random(seed);
+  Random random(seed);
   OneTriangle result;
   for (ScreenVertex& v : result.triangle.vertices) v.normal = direction_within(degrees / 2, random);
   result.light_from(direction_within(70, random));
