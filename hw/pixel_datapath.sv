@@ -39,7 +39,7 @@ module pixel_datapath #(
     input  logic [                  X_BITS-1:0] span_x,
     input  logic [                  X_BITS-1:0] span_y,
     input  logic [             LENGTH_BITS-1:0] span_length,
-    input  logic                                span_base,           // of the first light: fades to cue_color
+    input  logic                                span_first_pass,           // of the first light: fades to cue_color
     input  logic                                span_step_diffuse,   // else diffuse (and gate) stay as they start
     input  logic                                span_step_specular,
     input  logic                                span_highlight,      // else the word does not count
@@ -234,7 +234,7 @@ module pixel_datapath #(
     logic s4_valid;
     logic [X_BITS-1:0] s4_x, s4_y;
     logic [CUE_WIDTH-1:0] fd_cue_v;
-    logic fd_base, s1_base, s2_base, s3_base;
+    logic fd_first_pass, s1_first_pass, s2_first_pass, s3_first_pass;
     logic [FACTOR_BITS:0] s1_factor, s2_factor, s3_factor;
     wire s4_ready = !s4_valid || pixel_ready;
     wire above = |fd_cue_v[CUE_WIDTH-2:`PHONGPIPE_CUE_FRACTION];
@@ -252,14 +252,14 @@ module pixel_datapath #(
         .v(fd_cue_v)
     );
     always_ff @(posedge clk) begin
-      if (load) fd_base <= span_base;
+      if (load) fd_first_pass <= span_first_pass;
       if (s1_ready) begin
         s1_factor <= fd_cue_v[CUE_WIDTH-1] ? '0 : above ? {1'b1, {FACTOR_BITS{1'b0}}}
                                                         : {1'b0, fd_cue_v[DROPPED+:FACTOR_BITS]};
-        s1_base <= fd_base;
+        s1_first_pass <= fd_first_pass;
       end
-      if (s2_ready) {s2_factor, s2_base} <= {s1_factor, s1_base};
-      if (s3_ready) {s3_factor, s3_base} <= {s2_factor, s2_base};
+      if (s2_ready) {s2_factor, s2_first_pass} <= {s1_factor, s1_first_pass};
+      if (s3_ready) {s3_factor, s3_first_pass} <= {s2_factor, s2_first_pass};
       if (s4_ready) {s4_x, s4_y} <= {s3_x, s3_y};
       if (reset) s4_valid <= 1'b0;
       else if (s4_ready) s4_valid <= s3_valid;
@@ -271,7 +271,7 @@ module pixel_datapath #(
           .clk,
           .enable(s4_ready),
           .sum(s3_sum[c*SUM_BITS+:SUM_BITS]),
-          .cue(s3_base ? cue_color[c*COLOR_BITS+:COLOR_BITS] : '0),
+          .cue(s3_first_pass ? cue_color[c*COLOR_BITS+:COLOR_BITS] : '0),
           .factor(s3_factor),
           .color(pixel_color[c*COLOR_BITS+:COLOR_BITS])
       );
@@ -284,6 +284,6 @@ module pixel_datapath #(
     assign pixel_valid = s3_valid;
     assign {pixel_x, pixel_y} = {s3_x, s3_y};
     assign pixel_color = s3_color;
-    wire unused = &{1'b0, span_base, span_cue_v, span_cue_d1, cue_color, s3_sum};
+    wire unused = &{1'b0, span_first_pass, span_cue_v, span_cue_d1, cue_color, s3_sum};
   end
 endmodule

@@ -1,5 +1,5 @@
 // A bounded queue between modules that act in every clock. What one clock writes is seen in the
-// next, and so is the place that one clock frees: both flags are registered, as in hardware.
+// next, and so is the slot that one clock frees: both flags are registered, as in hardware.
 // (sc_fifo is like it, but its front can not be looked at without taking it, as valid/ready wants.)
 #pragma once
 
@@ -12,20 +12,20 @@ template <typename T>
 class ClockedFifo : public sc_core::sc_prim_channel {
  public:
   ClockedFifo(const char* name, int depth)
-      : sc_core::sc_prim_channel(name), places_(static_cast<std::size_t>(depth)) {}
+      : sc_core::sc_prim_channel(name), slots_(static_cast<std::size_t>(depth)) {}
 
   bool empty() const { return size_ == 0; }
-  bool full() const { return size_ == places_.size(); }
+  bool full() const { return size_ == slots_.size(); }
   std::size_t size() const { return size_; }
-  std::size_t depth() const { return places_.size(); }
+  std::size_t depth() const { return slots_.size(); }
 
-  const T& front() const { return places_[first_]; }  // while not empty
-  void pop() {                                        // once a clock, while not empty
+  const T& front() const { return slots_[first_]; }  // while not empty
+  void pop() {                                       // once a clock, while not empty
     popped_ = true;
     request_update();
   }
   void push(T item) {  // once a clock, while not full
-    places_[(first_ + size_) % places_.size()] = std::move(item);
+    slots_[(first_ + size_) % slots_.size()] = std::move(item);
     pushed_ = true;
     request_update();
   }
@@ -33,14 +33,14 @@ class ClockedFifo : public sc_core::sc_prim_channel {
  private:
   void update() override {
     if (popped_) {
-      first_ = (first_ + 1) % places_.size();
+      first_ = (first_ + 1) % slots_.size();
       --size_;
     }
     if (pushed_) ++size_;
     popped_ = pushed_ = false;
   }
 
-  std::vector<T> places_;
+  std::vector<T> slots_;
   std::size_t first_ = 0, size_ = 0;
   bool popped_ = false, pushed_ = false;
 };

@@ -30,13 +30,13 @@ struct FrameContext {
     return outcome;
   }
 
-  // Cycles the framebuffer spends on pixel `place` of the stream.
-  Cycle framebuffer_cycles(bool base, bool taken, std::uint32_t place) const {
-    const Cycle cycles = !taken ? configuration.framebuffer_test_cycles
-                         : base ? configuration.framebuffer_write_cycles
-                                : configuration.framebuffer_add_cycles;
+  // Cycles the framebuffer spends on pixel `stream_index` of the stream.
+  Cycle framebuffer_cycles(bool first_pass, bool taken, std::uint32_t stream_index) const {
+    const Cycle cycles = !taken       ? configuration.framebuffer_test_cycles
+                         : first_pass ? configuration.framebuffer_write_cycles
+                                      : configuration.framebuffer_add_cycles;
     if (options.stall_percent == 0) return cycles;
-    const std::uint32_t random = scramble(place * 2654435769U + options.stall_seed);
+    const std::uint32_t random = scramble(stream_index * 2654435769U + options.stall_seed);
     const bool stalled = random % 100 < static_cast<std::uint32_t>(options.stall_percent);
     return cycles + (stalled ? 1 + (random >> 16) % 8 : 0);
   }
@@ -74,7 +74,7 @@ struct DepthPixel {
   ShadedPixel pixel;
   std::uint32_t depth = 0;
   std::uint32_t triangle = 0;
-  bool base = true;
+  bool first_pass = true;
 };
 
 }  // namespace phongpipe

@@ -1,9 +1,9 @@
 // A bounded queue between modules that run ahead of the kernel's clock (temporal decoupling).
 //
-// Every item carries the cycle it was written in, and every place the cycle it was read in, so that
+// Every item carries the cycle it was written in, and every slot the cycle it was read in, so that
 // the cycles come out as in a clocked queue: an item is seen from the cycle after its writing, a
-// place can be used again from the cycle after its reading. Modules only wait for each other when
-// there is no item, or no place, at all.
+// slot can be used again from the cycle after its reading. Modules only wait for each other when
+// there is no item, or no slot, at all.
 #pragma once
 
 #include <algorithm>
@@ -23,12 +23,12 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
         items_(static_cast<std::size_t>(depth)),
         times_(static_cast<std::size_t>(depth)) {}
 
-  // Waits for a place; what is put there is written by write().
+  // Waits for a slot; what is put there is written by write().
   T& free_place() {
     while (size_ == depth()) wait_for(read_event_, writer_waits_);
     return items_[free_];
   }
-  // Writes what is in the free place, no earlier than `earliest`; returns the cycle of the writing.
+  // Writes what is in the free slot, no earlier than `earliest`; returns the cycle of the writing.
   Cycle write(Cycle earliest) {
     Times& times = times_[free_];
     times.written_at = std::max(earliest, times.read_at + 1);
@@ -53,7 +53,7 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
     while (size_ == 0 && !closed_) wait_for(written_event_, reader_waits_);
     return size_ > 0;
   }
-  // The front item stays where it is until another one is written to its place, that is, as long as
+  // The front item stays where it is until another one is written to its slot, that is, as long as
   // its reader does not wait.
   const T& front() const { return items_[first_]; }
   Cycle front_seen_from() const { return times_[first_].written_at + 1; }
@@ -82,14 +82,14 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
     waiting = false;
   }
 
-  std::size_t after(std::size_t place) const { return place + 1 == depth() ? 0 : place + 1; }
+  std::size_t after(std::size_t slot) const { return slot + 1 == depth() ? 0 : slot + 1; }
 
   struct Times {
     Cycle written_at = -1;
     Cycle read_at = -1;  // of the item before
   };
   std::vector<T> items_;
-  std::vector<Times> times_;  // of the places
+  std::vector<Times> times_;  // of the slots
   std::size_t first_ = 0, free_ = 0, size_ = 0;
   bool closed_ = false;
   bool writer_waits_ = false, reader_waits_ = false;

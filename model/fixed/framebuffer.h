@@ -52,17 +52,17 @@ class Framebuffer {
   }
 
   // The one or the other, as the pass of the span has it.
-  bool take(bool base, int x, int y, std::uint32_t depth, std::uint32_t triangle,
+  bool take(bool first_pass, int x, int y, std::uint32_t depth, std::uint32_t triangle,
             std::uint32_t color) {
-    return base ? write(x, y, depth, triangle, color) : add(x, y, triangle, color);
+    return first_pass ? write(x, y, depth, triangle, color) : add(x, y, triangle, color);
   }
 
   // All pixels of a span inside the image; `taken` tells of each what take() would.
   void take_span(const FrameSetup& frame, const Span& span, const std::uint32_t* colors,
                  std::uint8_t* taken) {
     for (int i = 0; i < span.row.length; ++i) {
-      taken[i] = take(span.base, span.row.x + i, span.row.y, depth(frame, span, i), span.triangle,
-                      colors[i]);
+      taken[i] = take(span.first_pass, span.row.x + i, span.row.y, depth(frame, span, i),
+                      span.triangle, colors[i]);
     }
   }
 

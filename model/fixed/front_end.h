@@ -16,8 +16,8 @@ struct TriangleWork {
 };
 
 enum class SetupOutcome {
-  nothing,  // no pixel is covered, or the pass's light does not reach the material: no time spent
-  dropped,  // set up as far as `work.setup.plan` goes, and found to add nothing
+  nothing,   // no pixel is covered, or the pass's light does not reach the material: no time spent
+  left_out,  // set up as far as `work.setup.plan` goes, and found to add nothing
   ready
 };
 
@@ -43,7 +43,7 @@ class FrontEnd {
     if (work.rows.empty()) return SetupOutcome::nothing;
     const Pixel origin = expansion_pixel(source, work.rows);
     work.setup = setup_engine_.set_up(triangle, pass, origin.x, origin.y, longest_row(work.rows));
-    return pass > 0 && !adds(work.setup.plan) ? SetupOutcome::dropped : SetupOutcome::ready;
+    return pass > 0 && !adds(work.setup.plan) ? SetupOutcome::left_out : SetupOutcome::ready;
   }
 
   const SpanWalker& span_walker() const { return span_walker_; }

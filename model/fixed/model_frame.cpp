@@ -13,7 +13,7 @@ bool SpanStream::next_triangle() {
     const SetupOutcome outcome = front_end_.set_up(order_.triangle(), order_.pass(), work_);
     if (outcome == SetupOutcome::nothing) continue;
     ++triangles_.set_up;
-    if (outcome == SetupOutcome::dropped) {
+    if (outcome == SetupOutcome::left_out) {
       ++triangles_.left_out;
       continue;
     }

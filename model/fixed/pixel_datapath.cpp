@@ -141,9 +141,10 @@ void PixelDatapath::shade_stepping(const Span& span, std::uint32_t* colors) cons
       const std::int32_t clamped = clamped_diffuse(configuration_, diffuse[c].v(), span.level[c]);
       const std::int32_t word = specular_on && open ? rom_[c][address] : 0;
       const std::uint8_t output =
-          configuration_.depth_cue ? depth_cue(light_sum(configuration_, clamped, word),
-                                               span.base ? cue_color_[c] : 0, cue_factor(cue.v()))
-                                   : color_sum(configuration_, clamped, word);
+          configuration_.depth_cue
+              ? depth_cue(light_sum(configuration_, clamped, word),
+                          span.first_pass ? cue_color_[c] : 0, cue_factor(cue.v()))
+              : color_sum(configuration_, clamped, word);
       color |= std::uint32_t{output} << (c * kOutputBits);
       diffuse[c].step();
     }

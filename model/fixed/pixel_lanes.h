@@ -113,7 +113,7 @@ struct PixelLanes {
 
   template <typename Gather>
   inline __attribute__((always_inline)) void shade(const Format& format, const LaneInputs& inputs,
-                                                   bool base, std::uint32_t* colors) const {
+                                                   bool first_pass, std::uint32_t* colors) const {
     Vector address = {};
     Vector open = Vector{} - 1;  // all ones: the highlight counts
     if constexpr (kSpecular) {
@@ -146,7 +146,7 @@ struct PixelLanes {
       }
       sum = sum >> format.sum_fraction;
       if (format.depth_cue) {
-        const Word own = base ? inputs.cue_color[c] : 0;
+        const Word own = first_pass ? inputs.cue_color[c] : 0;
         sum = own + (((sum - own) * factor + (1 << (kCueFactorBits - 1))) >> kCueFactorBits);
       }
       sum = sum > kOutputMax ? Vector{} + kOutputMax : sum;
@@ -164,12 +164,12 @@ inline __attribute__((always_inline)) void shade_span(const LaneFormat<Word>& fo
                                                       std::uint32_t* colors) {
   PixelLanes<Word, kLanes, kChannels, kSpecular, kGate> lanes;
   lanes.load(format, span);
-  lanes.template shade<Gather>(format, inputs, span.base, colors);
+  lanes.template shade<Gather>(format, inputs, span.first_pass, colors);
   if (span.row.length <= kLanes) return;
   lanes.load_differences(format, span);
   for (int i = kLanes; i < span.row.length; i += kLanes) {
     lanes.advance(format);
-    lanes.template shade<Gather>(format, inputs, span.base, colors + i);
+    lanes.template shade<Gather>(format, inputs, span.first_pass, colors + i);
   }
 }
 

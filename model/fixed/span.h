@@ -19,7 +19,7 @@ struct Span {
   RowSpan row;
   std::uint32_t triangle = 0;  // its place in Geometry::triangles
   std::uint32_t table = 0;     // of the highlight, its place in FrameSetup::tables
-  bool base = true;            // of the first pass: writes; those of further lights add
+  bool first_pass = true;      // of the first light: writes; those of further lights add
   // What the datapath is spared: series that stay as they start, and a highlight of words 0.
   bool step_diffuse = true, step_specular = true;
   bool highlight = true;

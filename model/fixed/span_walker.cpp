@@ -50,7 +50,7 @@ void SpanWalker::start(const TriangleSetup& setup, const RowSpan& row, Span& spa
   span.row = row;
   span.triangle = setup.triangle;
   span.table = setup.material->table;
-  span.base = setup.pass == 0;
+  span.first_pass = setup.pass == 0;
   span.step_diffuse = row.lit && plan.light() == SeriesForm::fitted;
   span.step_specular = row.lit && plan.specular == SeriesForm::fitted;
   span.highlight = row.lit && is_present(plan.specular);

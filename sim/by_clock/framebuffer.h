@@ -23,7 +23,7 @@ class Framebuffer : public sc_core::sc_module {
     return std::move(memory_);
   }
   bool busy() const { return busy_ > 0; }
-  std::uint64_t moved() const { return place_; }
+  std::uint64_t moved() const { return stream_index_; }
 
  private:
   void clock() {
@@ -34,15 +34,15 @@ class Framebuffer : public sc_core::sc_module {
     // A wrong place must not write outside the image; the comparison of streams will tell it.
     const bool inside =
         pixel.pixel.x < context_.frame.width && pixel.pixel.y < context_.frame.height;
-    busy_ = context_.framebuffer_cycles(pixel.base, inside && take(pixel), place_++);
+    busy_ = context_.framebuffer_cycles(pixel.first_pass, inside && take(pixel), stream_index_++);
     context_.result.frame_cycles = cycle + busy_;
     pixels_.pop();
   }
 
   bool take(const DepthPixel& pixel) {
-    if (depth_test_ && pixel.base) ++depth_test_->operations.additions;
+    if (depth_test_ && pixel.first_pass) ++depth_test_->operations.additions;
     const auto& [x, y, color] = pixel.pixel;
-    return memory_.take(pixel.base, x, y, pixel.depth, pixel.triangle, color);
+    return memory_.take(pixel.first_pass, x, y, pixel.depth, pixel.triangle, color);
   }
 
   FrameContext& context_;
@@ -50,7 +50,7 @@ class Framebuffer : public sc_core::sc_module {
   phongpipe::Framebuffer memory_;
   std::unique_ptr<DatapathBlock> depth_test_;  // steps depth, where it is tested at all
   Cycle cycle_ = 0, busy_ = 0;
-  std::uint32_t place_ = 0;
+  std::uint32_t stream_index_ = 0;
 };
 
 }  // namespace phongpipe::by_clock

@@ -55,7 +55,7 @@ class PixelDatapath : public sc_core::sc_module {
     if (in_flight_.empty()) return;  // a pixel nobody asked for; the comparison will tell
     const Span& span = in_flight_.front();
     pixels_.push({pixel, phongpipe::Framebuffer::depth(context_.frame, span, delivered_),
-                  span.triangle, span.base});
+                  span.triangle, span.first_pass});
     if (++delivered_ == span.row.length) {
       in_flight_.pop_front();
       delivered_ = 0;

@@ -11,7 +11,7 @@ void ClockedPixelDatapath::run() {
     if (!more && driver_.pixels_in_flight() <= 0) break;
     const bool visible = more && spans_.front_seen_from() <= cycle;
     const DatapathDriver::Outcome outcome =
-        driver_.clock(visible ? &spans_.front() : nullptr, timing_.place_free_from() <= cycle);
+        driver_.clock(visible ? &spans_.front() : nullptr, timing_.slot_free_from() <= cycle);
     if (outcome.span_taken) {
       in_flight_.push_back(spans_.front());
       spans_.pop(cycle);
@@ -61,7 +61,7 @@ std::string ClockedPixelDatapath::stuck(Cycle cycle) const {
       "pixel_datapath ({} delivered), framebuffer {}",
       context_.options.watchdog_cycles, cycle, spans_.size(), spans_.depth(),
       driver_.pixels_in_flight(), context_.delivered,
-      timing_.place_free_from() <= cycle ? "ready" : "busy");
+      timing_.slot_free_from() <= cycle ? "ready" : "busy");
 }
 
 }  // namespace phongpipe::by_span

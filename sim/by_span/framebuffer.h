@@ -35,17 +35,17 @@ class Framebuffer : public sc_core::sc_module {
  private:
   Cycle take(const Span& span, int i, int x, int y, std::uint32_t color) {
     const std::uint32_t depth = phongpipe::Framebuffer::depth(context_.frame, span, i);
-    const bool taken = memory_.take(span.base, x, y, depth, span.triangle, color);
-    return context_.framebuffer_cycles(span.base, taken, place_++);
+    const bool taken = memory_.take(span.first_pass, x, y, depth, span.triangle, color);
+    return context_.framebuffer_cycles(span.first_pass, taken, stream_index_++);
   }
   void count_test(const Span& span, std::size_t pixels) {
-    if (depth_test_ && span.base) depth_test_->operations.additions += pixels;
+    if (depth_test_ && span.first_pass) depth_test_->operations.additions += pixels;
   }
 
   std::unique_ptr<DatapathBlock> depth_test_;  // steps depth, where it is tested at all
   FrameContext& context_;
   phongpipe::Framebuffer memory_;
-  std::uint32_t place_ = 0;
+  std::uint32_t stream_index_ = 0;
 };
 
 }  // namespace phongpipe::by_span

@@ -9,7 +9,7 @@ namespace phongpipe {
 
 void ErrorStatistics::add(double error) {
   const double size = std::fabs(error);
-  largest = std::max(largest, size);
+  largest_lsb = std::max(largest_lsb, size);
   sum_of_squares += error * error;
   ++samples;
   over_half += size > 0.5;
@@ -17,12 +17,12 @@ void ErrorStatistics::add(double error) {
   over_two += size > 2;
 }
 
-double ErrorStatistics::rms() const {
+double ErrorStatistics::rms_lsb() const {
   return samples == 0 ? 0 : std::sqrt(sum_of_squares / static_cast<double>(samples));
 }
 
 double ErrorStatistics::psnr_db() const {
-  return 20 * std::log10(kOutputMax / rms());
+  return 20 * std::log10(kOutputMax / rms_lsb());
 }
 
 double ErrorStatistics::share(std::uint64_t count) const {

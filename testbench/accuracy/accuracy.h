@@ -12,13 +12,13 @@ namespace phongpipe {
 
 // Over channels of covered pixels, in output LSB.
 struct ErrorStatistics {
-  double largest = 0;
+  double largest_lsb = 0;
   double sum_of_squares = 0;
   std::uint64_t samples = 0;
   std::uint64_t over_half = 0, over_one = 0, over_two = 0;
 
   void add(double error);
-  double rms() const;
+  double rms_lsb() const;
   double psnr_db() const;  // against full scale; infinite without any error
   double share(std::uint64_t count) const;
 };

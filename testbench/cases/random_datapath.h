@@ -74,7 +74,7 @@ inline SeriesStart random_start(Random& random, int width) {
 inline Span random_span(Random& random, const FrameConfiguration& c, int length) {
   Span span;
   span.row = {random.integer(0, 4096 - length), random.integer(0, 4095), length};
-  span.base = random.integer(0, 1) == 0;
+  span.first_pass = random.integer(0, 1) == 0;
   span.step_diffuse = (c.diffuse || c.has_gate_series()) && random.integer(0, 3) > 0;
   span.step_specular = c.specular && random.integer(0, 3) > 0;
   span.highlight = c.specular && random.integer(0, 3) > 0;

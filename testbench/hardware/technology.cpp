@@ -31,7 +31,7 @@ double table_penalty(const std::vector<Point>& points, int base_bits, int addres
   for (const Point& point : points) {
     if (point.address_bits != address_bits) continue;
     const Point* base = point_at(points, base_bits, point.width);
-    if (base != nullptr) return point.ns - base->ns;
+    if (base != nullptr) return point.clock_ns - base->clock_ns;
   }
   throw InputError(
       fmt::format("no width with both {} and {} address bits", base_bits, address_bits));
@@ -40,7 +40,7 @@ double table_penalty(const std::vector<Point>& points, int base_bits, int addres
 }  // namespace
 
 double Technology::clock_ns(const DatapathConfiguration& configuration) const {
-  if (points.empty()) return fixed_ns;
+  if (points.empty()) return fixed_clock_ns;
   const int width = std::max(configuration.diffuse_width(), configuration.specular_width());
   std::vector<int> sizes;
   for (const Point& point : points) sizes.push_back(point.address_bits);
@@ -54,8 +54,9 @@ double Technology::clock_ns(const DatapathConfiguration& configuration) const {
         name, width, configuration.rom_address_bits));
   }
   const bool larger_table = *size != sizes.front();
-  const double ns = base->ns + (larger_table ? table_penalty(points, sizes.front(), *size) : 0);
-  return configuration.depth_cue ? std::max(ns, depth_cue_ns) : ns;
+  const double ns =
+      base->clock_ns + (larger_table ? table_penalty(points, sizes.front(), *size) : 0);
+  return configuration.depth_cue ? std::max(ns, depth_cue_clock_ns) : ns;
 }
 
 Technology load_technology(const std::string& name) {
@@ -67,7 +68,7 @@ Technology load_technology(const std::string& name) {
   const NumberRange nanoseconds = {0.001, 1e6};
   if (table.has("clock_ns")) {
     table.refuse("clock", "a card has either clock_ns or [[clock]] points");
-    technology.fixed_ns = table.number("clock_ns", nanoseconds);
+    technology.fixed_clock_ns = table.number("clock_ns", nanoseconds);
   } else {
     for (const TomlTable& point : table.tables("clock")) {
       technology.points.push_back({point.integer("width", 1, 64),
@@ -75,7 +76,7 @@ Technology load_technology(const std::string& name) {
                                    point.number("ns", nanoseconds)});
       point.finish();
     }
-    technology.depth_cue_ns = table.number("depth_cue_ns", nanoseconds, 0);
+    technology.depth_cue_clock_ns = table.number("depth_cue_ns", nanoseconds, 0);
     std::sort(technology.points.begin(), technology.points.end(),
               [](const Point& a, const Point& b) { return a.width < b.width; });
     // Fail at the card, not at the configuration that happens to need the missing pair.

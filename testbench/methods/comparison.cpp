@@ -159,7 +159,7 @@ class SceneComparison {
           std::chrono::steady_clock::now() - start;
       least = std::min(least, taken.count());
     }
-    result.wall_clock_ns =
+    result.wall_clock_ns_per_pixel =
         least / static_cast<double>(std::max<std::size_t>(1, comparison_.pixels));
     return frame;
   }
@@ -181,15 +181,16 @@ class SceneComparison {
   void judge(const Scene& scene, const Drawn& drawn, std::vector<Color> colors,
              MethodResult& result) {
     const std::vector<Color>& exact = exact_of(scene);
-    result.errors.assign(colors.size(), std::numeric_limits<float>::quiet_NaN());
+    result.errors_lsb.assign(colors.size(), std::numeric_limits<float>::quiet_NaN());
     std::vector<Color> error(colors.size(), Color::Zero());
     for (std::size_t i = 0; i < colors.size(); ++i) {
       if (whole_.visibility.seen[i] == Visibility::kNothing) continue;
       error[i] = colors[i] - exact[i];
       for (int c = 0; c < comparison_.channels; ++c) result.error.add(error[i][c]);
-      result.errors[i] = static_cast<float>(error[i].abs().head(comparison_.channels).maxCoeff());
+      result.errors_lsb[i] =
+          static_cast<float>(error[i].abs().head(comparison_.channels).maxCoeff());
     }
-    result.seam = largest_seam(geometry_, drawn, error, comparison_.channels);
+    result.largest_seam_lsb = largest_seam(geometry_, drawn, error, comparison_.channels);
     result.colors = std::move(colors);
   }
 

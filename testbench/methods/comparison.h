@@ -26,12 +26,13 @@ struct MethodResult {
   // Triangles of so many pixels and more cost less than exact Phong's, one operation after the
   // other.
   std::optional<int> break_even_pixels;
-  double wall_clock_ns = 0;  // per shaded pixel, on this machine, one run, setup included
+  double wall_clock_ns_per_pixel = 0;  // per shaded pixel, on this machine, one run, setup included
   ErrorStatistics error;
-  double seam = 0;  // largest jump of the error between pixels on both sides of a shared edge, LSB
+  // Largest jump of the error between pixels on both sides of an edge that triangles share.
+  double largest_seam_lsb = 0;
 
   std::vector<Color> colors;
-  std::vector<float> errors;  // the largest of the channels, NaN where nothing is covered
+  std::vector<float> errors_lsb;  // the largest of the channels, NaN where nothing is covered
 };
 
 struct Comparison {

@@ -30,7 +30,7 @@ std::string break_even_text(std::optional<int> pixels) {
 
 double wall_clock_of_phong(const Comparison& comparison) {
   for (const MethodResult& result : comparison.methods) {
-    if (result.name == "phong") return result.wall_clock_ns;
+    if (result.name == "phong") return result.wall_clock_ns_per_pixel;
   }
   return 0;
 }
@@ -53,7 +53,7 @@ nlohmann::ordered_json operations_json(const OperationCounts& c) {
 double largest_error_of_taylor(const Comparison& comparison) {
   for (const MethodResult& result : comparison.methods) {
     const bool taylor = result.name == "taylor" || result.name == "taylor-local";
-    if (taylor && result.refused.empty()) return result.error.largest;
+    if (taylor && result.refused.empty()) return result.error.largest_lsb;
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -78,9 +78,9 @@ std::string escaped(std::string_view text) {
 
 Picture error_picture(const MethodResult& result, const Comparison& comparison) {
   Picture picture(comparison.width, comparison.height, 3, kUncoveredColor.data());
-  for (std::size_t i = 0; i < result.errors.size(); ++i) {
-    if (std::isnan(result.errors[i])) continue;
-    const Rgb color = error_color(static_cast<double>(result.errors[i]));
+  for (std::size_t i = 0; i < result.errors_lsb.size(); ++i) {
+    if (std::isnan(result.errors_lsb[i])) continue;
+    const Rgb color = error_color(static_cast<double>(result.errors_lsb[i]));
     std::copy(color.begin(), color.end(), picture.pixel(i));
   }
   return picture;
@@ -111,11 +111,12 @@ std::string comparison_text(const Comparison& comparison) {
             : fmt::format("{:>12} {:>14} {:>8.2f} {:>8.2f} {:>7.2f} {:>10}",
                           operations_text(r.costs.pixel + r.costs.combine),
                           operations_text(r.costs.triangle), r.clocks_per_pixel, r.ns_per_pixel,
-                          phong / r.wall_clock_ns, break_even_text(r.break_even_pixels));
-    const double ratio = r.error.largest / taylor;
-    text += fmt::format("{:<20} {} {:>8.2f} {:>8} {:>8.3f} {:>7.2f}{}\n", r.name, cost,
-                        r.error.largest, std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "–",
-                        r.error.rms(), r.seam, r.note.empty() ? "" : "  " + r.note);
+                          phong / r.wall_clock_ns_per_pixel, break_even_text(r.break_even_pixels));
+    const double ratio = r.error.largest_lsb / taylor;
+    text +=
+        fmt::format("{:<20} {} {:>8.2f} {:>8} {:>8.3f} {:>7.2f}{}\n", r.name, cost,
+                    r.error.largest_lsb, std::isfinite(ratio) ? fmt::format("{:.2f}", ratio) : "–",
+                    r.error.rms_lsb(), r.largest_seam_lsb, r.note.empty() ? "" : "  " + r.note);
   }
   return text +
          "a pixel, a triangle: operations counted, one channel, power by table; clocks: on the "
@@ -152,14 +153,14 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
                 {"ns_per_pixel", r.ns_per_pixel},
                 {"sequential_operations_per_pixel", r.operations_per_pixel},
                 {"cycles_per_triangle", clocks(r.costs.triangle, comparison.hardware.pipeline)},
-                {"speed_over_phong", phong / r.wall_clock_ns},
+                {"speed_over_phong", phong / r.wall_clock_ns_per_pixel},
                 {"break_even_pixels", pays}});
     }
-    j.update({{"max_lsb", r.error.largest},
-              {"max_over_taylor", finite_or_null(r.error.largest / taylor)},
-              {"rms_lsb", r.error.rms()},
+    j.update({{"max_lsb", r.error.largest_lsb},
+              {"max_over_taylor", finite_or_null(r.error.largest_lsb / taylor)},
+              {"rms_lsb", r.error.rms_lsb()},
               {"psnr_db", finite_or_null(r.error.psnr_db())},
-              {"seam_lsb", r.seam}});
+              {"seam_lsb", r.largest_seam_lsb}});
     methods.push_back(std::move(j));
   }
   return {{"scene", comparison.scene},
@@ -186,9 +187,9 @@ std::string comparison_csv(const Comparison& comparison) {
         r.is_limit ? ",,,,,,,"
                    : fmt::format("{},{},{},{},{},{},{},{}", pixel.add, pixel.multiply, pixel.divide,
                                  pixel.sqrt + pixel.rsqrt, pixel.read, r.clocks_per_pixel,
-                                 r.ns_per_pixel, phong / r.wall_clock_ns);
-    text += fmt::format("{},{},,{},{},{},{}\n", comparison.scene, r.name, cost, r.error.largest,
-                        r.error.rms(), r.seam);
+                                 r.ns_per_pixel, phong / r.wall_clock_ns_per_pixel);
+    text += fmt::format("{},{},,{},{},{},{}\n", comparison.scene, r.name, cost, r.error.largest_lsb,
+                        r.error.rms_lsb(), r.largest_seam_lsb);
   }
   return text;
 }
@@ -207,7 +208,7 @@ Chart accuracy_against_time(const Comparison& comparison) {
     // Methods that equal Phong but for the last bits stand on the floor of the plot.
     constexpr double kFloor = 0.01;
     points.points.push_back(
-        {r.ns_per_pixel, std::max(kFloor, r.error.largest), std::string(r.name)});
+        {r.ns_per_pixel, std::max(kFloor, r.error.largest_lsb), std::string(r.name)});
   }
   chart.series.push_back(std::move(points));
   return chart;
@@ -239,7 +240,7 @@ void write_comparison_page(const Comparison& comparison, const std::filesystem::
     page += fmt::format(
         "<figure><img src=\"{}\" alt=\"\"><img src=\"{}\" alt=\"\"><figcaption><b>{}</b> {:.2f} "
         "LSB{}</figcaption></figure>\n",
-        picture, error, name, r.error.largest,
+        picture, error, name, r.error.largest_lsb,
         r.is_limit ? "" : fmt::format(", {:.2f} ns", r.ns_per_pixel));
   }
   write_text(folder / fmt::format("{}-methods.html", scene), page);

@@ -73,10 +73,10 @@ std::string_view limiting_block(const VerificationResult& r) {
 }
 
 std::pair<std::string_view, double> largest_link(const Accuracy& a) {
-  const std::pair<std::string_view, double> links[] = {{"series", a.series.largest},
-                                                       {"rounding", a.rounding.largest},
-                                                       {"table", a.rom.largest},
-                                                       {"output", a.output.largest}};
+  const std::pair<std::string_view, double> links[] = {{"series", a.series.largest_lsb},
+                                                       {"rounding", a.rounding.largest_lsb},
+                                                       {"table", a.rom.largest_lsb},
+                                                       {"output", a.output.largest_lsb}};
   return *std::max_element(std::begin(links), std::end(links),
                            [](const auto& x, const auto& y) { return x.second < y.second; });
 }
@@ -157,7 +157,7 @@ std::string time_text(const Page& page, const VerificationResult& r) {
 std::string error_text(const VerificationResult& r) {
   const auto [link, largest] = largest_link(r.accuracy);
   return fmt::format("at most {:.2f} LSB, RMS {:.2f}; largest part: {} {:.2f}",
-                     r.accuracy.total.largest, r.accuracy.total.rms(), link, largest);
+                     r.accuracy.total.largest_lsb, r.accuracy.total.rms_lsb(), link, largest);
 }
 
 void report_warnings(Page& page, const VerificationResult& r) {
@@ -286,7 +286,8 @@ ordered_json configuration_json(const VerificationResult& r) {
 std::string report_line(const VerificationResult& r, const ReportStyle& style) {
   Page page(style.color);
   page.plain(fmt::format("{}, {:.2f} of {:g} ns a pixel, at most {:.2f} LSB", heading(page, r),
-                         r.frame_ns_per_pixel(), r.options.budget_ns, r.accuracy.total.largest));
+                         r.frame_ns_per_pixel(), r.options.budget_ns,
+                         r.accuracy.total.largest_lsb));
   report_warnings(page, r);
   report_failures(page, r, style);
   if (style.verbose) report_details(page, r);

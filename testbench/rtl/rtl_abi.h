@@ -17,7 +17,7 @@ struct RtlSpan {
   RtlSeries gate;
   RtlSeries cue;  // without d2
   std::int64_t level[3];
-  std::uint8_t base, step_diffuse, step_specular, highlight;
+  std::uint8_t first_pass, step_diffuse, step_specular, highlight;
 };
 
 // The ports, for one clock. Outputs are as they stand before its edge.

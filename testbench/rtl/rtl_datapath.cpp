@@ -23,7 +23,7 @@ RtlSpan to_rtl(const Span& span) {
   rtl.specular = to_rtl(span.specular);
   rtl.gate = to_rtl(span.gate);
   rtl.cue = to_rtl(span.cue);
-  rtl.base = span.base;
+  rtl.first_pass = span.first_pass;
   rtl.step_diffuse = span.step_diffuse;
   rtl.step_specular = span.step_specular;
   rtl.highlight = span.highlight;

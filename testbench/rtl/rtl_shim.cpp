@@ -119,7 +119,7 @@ class Rtl {
     top_.span_x = static_cast<SData>(span->x);
     top_.span_y = static_cast<SData>(span->y);
     top_.span_length = static_cast<SData>(span->length);
-    top_.span_base = span->base;
+    top_.span_first_pass = span->first_pass;
     top_.span_step_diffuse = span->step_diffuse;
     top_.span_step_specular = span->step_specular;
     top_.span_highlight = span->highlight;

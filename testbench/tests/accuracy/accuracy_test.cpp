@@ -31,9 +31,9 @@ struct Measured {
 TEST(ErrorStatistics, ByHand) {
   ErrorStatistics s;
   for (const double error : {0.0, -0.6, 1.5, -3.0}) s.add(error);
-  EXPECT_EQ(s.largest, 3.0);
-  EXPECT_NEAR(s.rms(), std::sqrt((0.36 + 2.25 + 9) / 4), 1e-15);
-  EXPECT_NEAR(s.psnr_db(), 20 * std::log10(255 / s.rms()), 1e-12);
+  EXPECT_EQ(s.largest_lsb, 3.0);
+  EXPECT_NEAR(s.rms_lsb(), std::sqrt((0.36 + 2.25 + 9) / 4), 1e-15);
+  EXPECT_NEAR(s.psnr_db(), 20 * std::log10(255 / s.rms_lsb()), 1e-12);
   EXPECT_EQ(s.over_half, 3U);
   EXPECT_EQ(s.over_one, 2U);
   EXPECT_EQ(s.over_two, 1U);
@@ -88,9 +88,9 @@ TEST(Accuracy, SeveralLightsAndDepthCueingStayCloseToExactPhong) {
   for (const bool two_lights : {false, true}) {
     for (const bool depth_cue : {false, true}) {
       const Accuracy accuracy = Measured(torus(two_lights, depth_cue)).accuracy();
-      EXPECT_LT(accuracy.series.largest, 1) << two_lights << depth_cue;
-      EXPECT_LT(accuracy.total.largest, 3) << two_lights << depth_cue;
-      EXPECT_LT(accuracy.total.rms(), 0.8) << two_lights << depth_cue;
+      EXPECT_LT(accuracy.series.largest_lsb, 1) << two_lights << depth_cue;
+      EXPECT_LT(accuracy.total.largest_lsb, 3) << two_lights << depth_cue;
+      EXPECT_LT(accuracy.total.rms_lsb(), 0.8) << two_lights << depth_cue;
     }
   }
 }
@@ -109,18 +109,18 @@ TEST(Accuracy, ShippedScenesStayCloseToExactPhong) {
                                {"mesh", 2.2, 0.45},
                                {"screen-triangles", 10.5, 1.3}}) {
     const Accuracy accuracy = Measured(e.scene).accuracy();
-    EXPECT_LT(accuracy.total.largest, e.largest) << e.scene;
-    EXPECT_LT(accuracy.total.rms(), e.rms) << e.scene;
+    EXPECT_LT(accuracy.total.largest_lsb, e.largest) << e.scene;
+    EXPECT_LT(accuracy.total.rms_lsb(), e.rms) << e.scene;
   }
 }
 
 TEST(Accuracy, MoreFractionBitsRoundLess) {
   const double coarse = Measured("sphere", {"diffuse_fraction_bits=4", "specular_fraction_bits=1"})
                             .accuracy()
-                            .rounding.rms();
+                            .rounding.rms_lsb();
   const double fine = Measured("sphere", {"diffuse_fraction_bits=20", "specular_fraction_bits=16"})
                           .accuracy()
-                          .rounding.rms();
+                          .rounding.rms_lsb();
   EXPECT_GT(coarse, 16 * fine);
 }
 
@@ -129,7 +129,7 @@ TEST(Accuracy, RoundedIndexHalvesTheErrorOfATruncatedOne) {
   const auto error = [](const std::string& rounding) {
     return Measured("sphere", {"rom_data_bits=12", "index_rounding=" + rounding})
         .accuracy()
-        .rom.largest;
+        .rom.largest_lsb;
   };
   EXPECT_GT(error("truncate"), 1.8 * error("nearest"));
 }
@@ -138,8 +138,8 @@ TEST(Accuracy, AnchoringAtTheSpanRoundsLessThanAtTheTriangle) {
   const std::vector<std::string> few = {"diffuse_fraction_bits=8", "specular_fraction_bits=6"};
   std::vector<std::string> triangle = few;
   triangle.emplace_back("anchor=triangle");
-  EXPECT_LT(Measured("screen-triangles", few).accuracy().rounding.rms(),
-            Measured("screen-triangles", triangle).accuracy().rounding.rms());
+  EXPECT_LT(Measured("screen-triangles", few).accuracy().rounding.rms_lsb(),
+            Measured("screen-triangles", triangle).accuracy().rounding.rms_lsb());
 }
 
 }  // namespace

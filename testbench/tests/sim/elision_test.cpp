@@ -235,7 +235,7 @@ TEST(Elision, DropsTrianglesThatFaceAwayFromAFurtherLight) {
           std::max(highest, -vertex.normal.normalized().dot(lights.scene().lights[1].direction));
     }
     facing_away += highest <= 0;
-    if (outcome == SetupOutcome::dropped) {
+    if (outcome == SetupOutcome::left_out) {
       ++dropped;
       EXPECT_LE(highest, 0) << "triangle " << work.setup.triangle;
     }

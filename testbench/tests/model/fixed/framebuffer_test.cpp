@@ -137,7 +137,7 @@ TEST(Framebuffer, ASpanIsWrittenAsItsPixelsAre) {
     span.row.y = random.integer(0, 2);
     span.row.length = random.integer(1, 4 - span.row.x);
     span.triangle = static_cast<std::uint32_t>(random.integer(0, 5));
-    span.base = random.integer(0, 3) > 0;
+    span.first_pass = random.integer(0, 3) > 0;
     span.depth = random.integer(-10, 265) * (std::int64_t{1} << kDepthFraction);
     span.depth_step = random.integer(-(3 << kDepthFraction), 3 << kDepthFraction);
     const std::array<std::uint32_t, 4> values = {1, 2, 3, 4};
@@ -146,7 +146,7 @@ TEST(Framebuffer, ASpanIsWrittenAsItsPixelsAre) {
     for (int i = 0; i < span.row.length; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const int x = span.row.x + i, y = span.row.y;
-      EXPECT_EQ(written[at] != 0, span.base
+      EXPECT_EQ(written[at] != 0, span.first_pass
                                       ? by_pixel.write(x, y, Framebuffer::depth(frame, span, i),
                                                        span.triangle, values[at])
                                       : by_pixel.add(x, y, span.triangle, values[at]))

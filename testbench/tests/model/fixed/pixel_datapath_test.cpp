@@ -40,7 +40,7 @@ void expect_same(Random& random, const FrameConfiguration& c, Evaluation evaluat
       ASSERT_EQ(colors[k], expected[k])
           << "pixel " << k << " of " << length << "; " << text(c) << "; specular v "
           << span.specular.v << " d1 " << span.specular.d1 << " d2 " << span.specular.d2
-          << "; base " << span.base << ", highlight " << span.highlight;
+          << "; first_pass " << span.first_pass << ", highlight " << span.highlight;
     }
   }
 }
@@ -196,7 +196,8 @@ TEST_P(Pixel, TheGateSeriesDecidesInPlaceOfTheDiffuse) {
 // 20.5 LSB of level, 100.5 of diffuse light, 64 of highlight; the cue's colour is 40.
 class CuedPixel : public testing::TestWithParam<Evaluation> {
  protected:
-  std::uint32_t color(double cue_factor, bool base, bool highlight = true, double diffuse = 100.5) {
+  std::uint32_t color(double cue_factor, bool first_pass, bool highlight = true,
+                      double diffuse = 100.5) {
     FrameConfiguration c;
     c.depth_cue = true;
     HighlightTable table;
@@ -205,7 +206,7 @@ class CuedPixel : public testing::TestWithParam<Evaluation> {
     datapath.load_table(table);
     Span span;
     span.row = {0, 0, 1};
-    span.base = base;
+    span.first_pass = first_pass;
     span.highlight = highlight;
     span.level[0] = std::llround(20.5 * 65536);
     span.diffuse[0].v = std::llround(diffuse * 65536);

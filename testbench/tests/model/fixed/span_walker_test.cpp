@@ -101,7 +101,7 @@ TEST(SpanWalker, StartsAreExactFromTheRoundedCoefficients) {
       EXPECT_EQ(span.row.y, row.y);
       EXPECT_EQ(span.row.length, row.length);
       EXPECT_EQ(span.triangle, 17U);
-      EXPECT_EQ(span.base, i % 2 == 0);
+      EXPECT_EQ(span.first_pass, i % 2 == 0);
       EXPECT_EQ(span.table, 3U);
       EXPECT_EQ(span.level, material.level);
       if (HasFailure()) FAIL() << "case " << i << ", x " << x << ", y " << y;
@@ -220,7 +220,7 @@ TEST(SpanWalker, LooksAtEverySeriesInUse) {
 void expect_same(const Span& a, const Span& b) {
   const auto fields = [](const Span& s) {
     std::vector<std::int64_t> all = {s.row.x,         s.row.y,     s.row.length, s.row.lit,
-                                     s.triangle,      s.table,     s.base,       s.step_diffuse,
+                                     s.triangle,      s.table,     s.first_pass, s.step_diffuse,
                                      s.step_specular, s.highlight, s.depth,      s.depth_step};
     all.insert(all.end(), s.level.begin(), s.level.end());
     for (const SeriesStart* start :
@@ -275,7 +275,7 @@ TEST(SpanWalker, WhatIsNotSteppedHasNoDifferences) {
     for (TriangleOrder next(front_end); !next.done(); next.advance()) {
       if (front_end.set_up(next.triangle(), next.pass(), work) != SetupOutcome::ready) continue;
       const Span span = front_end.span_walker().start(work.setup, work.rows.back());
-      EXPECT_EQ(span.base, next.pass() == 0);
+      EXPECT_EQ(span.first_pass, next.pass() == 0);
       for (std::size_t c = 0; c < 3 && !span.step_diffuse; ++c) expect_still(span.diffuse[c]);
       if (!span.step_diffuse) expect_still(span.gate);
       if (!span.step_specular) expect_still(span.specular);
