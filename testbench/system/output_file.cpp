@@ -55,12 +55,10 @@ struct Place {
   struct stat status = {};  // of the file that is replaced; st_mode 0 where there is none
 };
 
+// Of links that stat() has followed, so that they come to an end.
 fs::path behind_links(fs::path file) {
-  const fs::path named = file;
   std::error_code none;
-  for (int links = 0; fs::is_symlink(fs::symlink_status(file, none)); ++links) {
-    constexpr int kMostLinks = 40;  // the kernel's limit
-    if (links == kMostLinks) fail_at_place(named, ELOOP);
+  while (fs::is_symlink(fs::symlink_status(file, none))) {
     file = file.parent_path() / fs::read_symlink(file);
   }
   return file;

@@ -128,6 +128,13 @@ TEST_F(RtlBuilder, AWarningOfVerilatorIsToldWithTheUsersFile) {
   expect_failure((rtl() / "color_sum.sv").string() + ":");
 }
 
+TEST_F(RtlBuilder, TheFirstComplaintIsToldWhateverElseIsPrinted) {
+  pretend("verilator",
+          "echo 'perl: warning: no such locale'; echo '%Warning-WIDTH: a.sv:3:1: too wide'; "
+          "echo '%Error: a.sv:4:1: worse'; echo '%Error: Exiting due to 1 error(s)'; exit 1");
+  expect_failure("verilator said: %Warning-WIDTH: a.sv:3:1: too wide");
+}
+
 TEST_F(RtlBuilder, AnErrorOfVerilatorIsToldWithTheUsersFile) {
   replace("color_sum.sv", "endmodule", "nonsense here\nendmodule");
   expect_failure("verilator said: %Error: " + (rtl() / "color_sum.sv").string() + ":");
