@@ -7,16 +7,6 @@
 
 namespace phongpipe {
 
-void ErrorStatistics::add(double error) {
-  const double size = std::fabs(error);
-  largest_lsb = std::max(largest_lsb, size);
-  sum_of_squares += error * error;
-  ++samples;
-  over_half += size > 0.5;
-  over_one += size > 1;
-  over_two += size > 2;
-}
-
 double ErrorStatistics::rms_lsb() const {
   return samples == 0 ? 0 : std::sqrt(sum_of_squares / static_cast<double>(samples));
 }

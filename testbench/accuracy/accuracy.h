@@ -2,6 +2,8 @@
 // exact Phong → real polynomial → rounded coefficients → ROM → 8-bit output.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -17,7 +19,15 @@ struct ErrorStatistics {
   std::uint64_t samples = 0;
   std::uint64_t over_half = 0, over_one = 0, over_two = 0;
 
-  void add(double error);
+  void add(double error_lsb) {
+    const double size = std::fabs(error_lsb);
+    largest_lsb = std::max(largest_lsb, size);
+    sum_of_squares += error_lsb * error_lsb;
+    ++samples;
+    over_half += size > 0.5;
+    over_one += size > 1;
+    over_two += size > 2;
+  }
   double rms_lsb() const;
   double psnr_db() const;  // against full scale; infinite without any error
   double share(std::uint64_t count) const;

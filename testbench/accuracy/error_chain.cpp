@@ -20,7 +20,10 @@ class PassChain {
       : configuration_(frame.configuration),
         front_end_(front_end),
         work_(work),
-        full_plan_(work.setup.material->plan) {
+        full_plan_(work.setup.material->plan),
+        diffuse_unit_(std::ldexp(1.0, -configuration_.diffuse_fraction_bits)),
+        specular_unit_(std::ldexp(1.0, -configuration_.specular_fraction_bits)),
+        word_unit_(std::ldexp(1.0, kOutputBits - configuration_.rom_data_bits)) {
     const TriangleSetup& setup = work.setup;
     const Geometry& geometry = *frame.geometry;
     const Material& material = geometry.materials[geometry.triangles[setup.triangle].material];
@@ -61,13 +64,11 @@ class PassChain {
   void add(const Span& span, int i, PassLight& light) const {
     const double x = span.row.x + i - work_.setup.x, y = span.row.y - work_.setup.y;
     const auto channels = static_cast<std::size_t>(configuration_.channels);
-    const int diffuse_fraction = configuration_.diffuse_fraction_bits;
-
     std::array<double, 3> real = {}, rounded = {};
     for (std::size_t c = 0; c < channels; ++c) {
       if (is_present(full_plan_.diffuse) && span.row.lit) real[c] = real_.diffuse[c](x, y);
       const std::int64_t v = value(span.diffuse[c], i, configuration_.diffuse_width());
-      rounded[c] = std::ldexp(static_cast<double>(v - span.level[c]), -diffuse_fraction);
+      rounded[c] = static_cast<double>(v - span.level[c]) * diffuse_unit_;
     }
     for (std::size_t c = 0; c < channels; ++c) {
       const auto k = static_cast<Eigen::Index>(c);
@@ -87,12 +88,11 @@ class PassChain {
     const std::int64_t gate = value(span.gate, i, configuration_.diffuse_width());
     if (!open(rounded, static_cast<double>(gate))) return;
     const std::int64_t specular = value(span.specular, i, configuration_.specular_width());
-    light.rounded += full_highlight(
-        std::ldexp(static_cast<double>(specular), -configuration_.specular_fraction_bits));
+    light.rounded += full_highlight(static_cast<double>(specular) * specular_unit_);
     const auto address = static_cast<std::size_t>(ExponentRom::address(configuration_, specular));
     for (std::size_t c = 0; c < channels; ++c) {
       light.table[static_cast<Eigen::Index>(c)] +=
-          std::ldexp(table_->roms[c].words()[address], kOutputBits - configuration_.rom_data_bits);
+          table_->roms[c].words()[address] * word_unit_;
     }
   }
 
@@ -122,6 +122,8 @@ class PassChain {
   const FrontEnd& front_end_;
   TriangleWork work_;
   SeriesPlan full_plan_;  // nothing left out
+  double diffuse_unit_, specular_unit_;  // LSB and addresses in one unit of the registers
+  double word_unit_;                     // LSB in one unit of a ROM word
   const HighlightTable* table_ = nullptr;
   TriangleCoefficients<double> real_;
   Color ambient_ = Color::Zero(), rounded_ambient_ = Color::Zero();

@@ -37,10 +37,10 @@ std::vector<std::string> picture_names(const std::vector<std::string>& scenes) {
   return names;
 }
 
-// What was given on the command line besides the scenes and where results go.
-std::string command_text(const Options& options) {
+// The options that were given, but for where results go.
+std::string options_text(const Options& options) {
   const VerificationOptions& v = options.verification;
-  std::string text = "phongpipe verify";
+  std::string text;
   if (options.hardware.hardware != "default") text += " --hardware " + options.hardware.hardware;
   for (const std::string& setting : options.hardware.overrides) text += " --set " + setting;
   if (v.stall_percent > 0) text += fmt::format(" --stall {} --seed {}", v.stall_percent, v.seed);
@@ -96,7 +96,7 @@ class Verifier {
     ReportStyle style;
     style.color = color_wanted();
     style.verbose = options_.verbose;
-    style.command = command_text(options_);
+    style.options = options_text(options_);
     if (!options_.json.empty() && options_.json != "-") style.more.push_back(options_.json);
     if (!options_.pictures.empty()) {
       const auto files = picture_files(options_.pictures, name);

@@ -86,6 +86,9 @@ Rgb error_color(double error) {
 }
 
 void write_png(const std::filesystem::path& file, const Picture& picture) {
+  // Differences to the row above; trying every filter on each row takes longer than compressing.
+  constexpr int kUp = 2;
+  stbi_write_force_png_filter = kUp;
   std::string bytes;
   stbi_write_png_to_func(append, &bytes, picture.width, picture.height, picture.channels,
                          picture.bytes.data(), picture.width * picture.channels);

@@ -84,7 +84,7 @@ std::pair<std::string_view, double> largest_link(const Accuracy& a) {
 // The command that verifies the same once more; `more` is appended.
 std::string command_text(const VerificationResult& r, const ReportStyle& style,
                          const std::string& more) {
-  return fmt::format("{} {}{}", style.command, r.scene, more);
+  return fmt::format("phongpipe verify {}{}{}", r.scene, style.options, more);
 }
 
 void report_implementation(Page& page, const char* name, const ImplementationResult& found,

@@ -15,7 +15,7 @@ namespace phongpipe {
 struct ReportStyle {
   bool color = false;
   bool verbose = false;
-  std::string command;            // that the result came from; without the scene
+  std::string options;            // of the command line that the result came from
   std::vector<std::string> more;  // files that were written, for the last line
 };
 
