@@ -91,8 +91,7 @@ class PassChain {
     light.rounded += full_highlight(static_cast<double>(specular) * specular_unit_);
     const auto address = static_cast<std::size_t>(ExponentRom::address(configuration_, specular));
     for (std::size_t c = 0; c < channels; ++c) {
-      light.table[static_cast<Eigen::Index>(c)] +=
-          table_->roms[c].words()[address] * word_unit_;
+      light.table[static_cast<Eigen::Index>(c)] += table_->roms[c].words()[address] * word_unit_;
     }
   }
 
@@ -121,7 +120,7 @@ class PassChain {
   const DatapathConfiguration& configuration_;
   const FrontEnd& front_end_;
   TriangleWork work_;
-  SeriesPlan full_plan_;  // nothing left out
+  SeriesPlan full_plan_;                 // nothing left out
   double diffuse_unit_, specular_unit_;  // LSB and addresses in one unit of the registers
   double word_unit_;                     // LSB in one unit of a ROM word
   const HighlightTable* table_ = nullptr;

@@ -10,7 +10,7 @@
 
 namespace phongpipe {
 
-inline std::string text(const FrameConfiguration& c) {
+inline std::string text(const DatapathConfiguration& c) {
   return "channels " + std::to_string(c.channels) + ", diffuse " +
          (c.diffuse ? std::to_string(c.diffuse_fraction_bits) : "left out") + ", specular " +
          (c.specular ? std::to_string(c.specular_fraction_bits) : "left out") + ", rom " +
@@ -19,8 +19,8 @@ inline std::string text(const FrameConfiguration& c) {
 }
 
 // A legal one. Widths are often at an end of their range.
-inline FrameConfiguration random_configuration(Random& random) {
-  FrameConfiguration c;
+inline DatapathConfiguration random_configuration(Random& random) {
+  DatapathConfiguration c;
   const auto in_range_or_at_an_end = [&random](int low, int high) {
     const int choice = random.integer(0, 5);
     return choice == 0 ? low : choice == 1 ? high : random.integer(low, high);
@@ -39,7 +39,7 @@ inline FrameConfiguration random_configuration(Random& random) {
   return c;
 }
 
-inline HighlightTable random_table(Random& random, const FrameConfiguration& c) {
+inline HighlightTable random_table(Random& random, const DatapathConfiguration& c) {
   HighlightTable table;
   for (int channel = 0; channel < c.channels; ++channel) {
     const double specular = random.uniform(0, 1.5), shininess = random.uniform(0, 200);
@@ -71,7 +71,7 @@ inline SeriesStart random_start(Random& random, int width) {
 
 // As the span walker may give it: what is not stepped has no differences, and where there is no
 // diffuse series the level stands for it.
-inline Span random_span(Random& random, const FrameConfiguration& c, int length) {
+inline Span random_span(Random& random, const DatapathConfiguration& c, int length) {
   Span span;
   span.row = {random.integer(0, 4096 - length), random.integer(0, 4095), length};
   span.first_pass = random.integer(0, 1) == 0;

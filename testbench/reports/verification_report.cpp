@@ -148,7 +148,7 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
 
 std::string time_text(const Page& page, const VerificationResult& r) {
   const std::string frame =
-      fmt::format("{:.2f} of {:g} ns a pixel", r.frame_ns_per_pixel(), r.options.budget_ns);
+      fmt::format("{:.2f} of {:.10g} ns a pixel", r.frame_ns_per_pixel(), r.options.budget_ns);
   return fmt::format("{}; datapath {:.2f}; limited by {}",
                      r.within_budget() ? frame : page.toned(Tone::bad, frame + ", OVER BUDGET"),
                      r.datapath_ns_per_pixel(), limiting_block(r));
@@ -285,7 +285,7 @@ ordered_json configuration_json(const VerificationResult& r) {
 
 std::string report_line(const VerificationResult& r, const ReportStyle& style) {
   Page page(style.color);
-  page.plain(fmt::format("{}, {:.2f} of {:g} ns a pixel, at most {:.2f} LSB", heading(page, r),
+  page.plain(fmt::format("{}, {:.2f} of {:.10g} ns a pixel, at most {:.2f} LSB", heading(page, r),
                          r.frame_ns_per_pixel(), r.options.budget_ns,
                          r.accuracy.total.largest_lsb));
   report_warnings(page, r);

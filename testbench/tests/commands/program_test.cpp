@@ -391,6 +391,23 @@ TEST_F(Program, OutputsThatCannotBeWrittenAreRefusedBeforeTheWork) {
   EXPECT_NE(full.text.find("No space left on device"), std::string::npos) << full.text;
 }
 
+// Memory follows the image: 12 bytes a pixel, however many lights or triangles go over it.
+TEST_F(Program, FiftyLightsOverALargeImageNeedNoMoreMemoryThanOne) {
+  std::string text = "[image]\nwidth = 4096\nheight = 4096\n";
+  for (int i = 0; i < 50; ++i) {
+    text += fmt::format("[[light]]\ntype = \"directional\"\ndirection = [{}, 1, 5]\ncolor = 0.02\n",
+                        i - 25);
+  }
+  write("t.csv",
+        "x0,y0,z0,nx0,ny0,nz0,x1,y1,z1,nx1,ny1,nz1,x2,y2,z2,nx2,ny2,nz2\n"
+        "100,100,1,0.1,0,-1,140,100,1,-0.1,0,-1,120,140,1,0,0.1,-1\n");
+  const std::string scene = write("lights.toml", text + "[[object]]\ntriangles = \"t.csv\"\n");
+  const ProcessOutput output = run_process(
+      {"sh", "-c",
+       "ulimit -v 600000; exec " PHONGPIPE_PROGRAM " verify " + scene + " --budget 1e9"});
+  EXPECT_EQ(output.status, 0) << output.text;
+}
+
 TEST_F(Program, FailedToolsAreStatusThree) {
   fs::create_directories(folder_ / "hw");
   write("hw/pixel_datapath.sv", "module pixel_datapath; endmodul\n");

@@ -117,7 +117,7 @@ Planes planes_of(const std::string& scene) {
   });
   Planes planes;
   for (const auto& [place, value] : sorted) {
-    planes[place[0]][place[1] < shaded.scene.image.width / 2 ? 0 : 1].push_back(value);
+    planes[place[0]][place[1] < shaded.frame.scene.image.width / 2 ? 0 : 1].push_back(value);
   }
   return planes;
 }

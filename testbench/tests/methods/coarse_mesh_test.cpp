@@ -2,6 +2,7 @@
 // and highlights by themselves, as `compare` measures them.
 #include <gtest/gtest.h>
 
+#include "model/files/scene_file.h"
 #include "testbench/methods/comparison.h"
 
 namespace phongpipe {
@@ -17,7 +18,7 @@ const MethodResult& result_of(const Comparison& comparison, std::string_view nam
 class CoarseMesh : public ::testing::TestWithParam<const char*> {
  protected:
   static Comparison compare_with(const std::vector<std::string>& overrides) {
-    return compare(std::string(PHONGPIPE_SCENES) + "/coarse/" + GetParam() + ".toml",
+    return compare(load_scene(std::string(PHONGPIPE_SCENES) + "/coarse/" + GetParam() + ".toml"),
                    load_hardware("default", overrides), [](const std::string&) {});
   }
   static bool is_diffuse() {
@@ -27,7 +28,7 @@ class CoarseMesh : public ::testing::TestWithParam<const char*> {
 
 TEST_P(CoarseMesh, TheDefaultsErrorIsAFractionOfTaylorsAtEqualCostAPixel) {
   const Comparison comparison = compare_with({});
-  const auto fit = static_cast<std::size_t>(comparison.hardware.datapath.series_fit);
+  const auto fit = static_cast<std::size_t>(comparison.hardware.setup.series_fit);
   const MethodResult& chosen = result_of(comparison, series_fit_names()[fit]);
   const MethodResult& taylor = result_of(comparison, "taylor");
   EXPECT_NE(chosen.note.find("the series of hardware default"), std::string::npos);

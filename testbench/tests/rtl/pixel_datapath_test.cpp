@@ -19,9 +19,9 @@ RtlBuildOptions build_options() {
   return options;
 }
 
-FrameConfiguration configured(int channels, int diffuse, int specular, int address, int data,
-                              GateSource gate) {
-  FrameConfiguration c;
+DatapathConfiguration configured(int channels, int diffuse, int specular, int address, int data,
+                                 GateSource gate) {
+  DatapathConfiguration c;
   c.channels = channels;
   c.diffuse_fraction_bits = diffuse;
   c.specular_fraction_bits = specular;
@@ -31,7 +31,8 @@ FrameConfiguration configured(int channels, int diffuse, int specular, int addre
   return c;
 }
 
-FrameConfiguration of_blocks(FrameConfiguration c, bool diffuse, bool specular, bool depth_cue) {
+DatapathConfiguration of_blocks(DatapathConfiguration c, bool diffuse, bool specular,
+                                bool depth_cue) {
   c.diffuse = diffuse;
   c.specular = specular;
   c.depth_cue = depth_cue;
@@ -59,7 +60,7 @@ std::vector<DatapathConfiguration> configurations() {
           of_blocks(configured(1, 4, 1, 6, 12, GateSource::off), true, true, true)};
 }
 
-std::string name_of(const FrameConfiguration& c) {
+std::string name_of(const DatapathConfiguration& c) {
   return fmt::format("c{}_d{}_s{}_a{}_w{}_g{}{}{}{}", c.channels, c.diffuse_fraction_bits,
                      c.specular_fraction_bits, c.rom_address_bits, c.rom_data_bits,
                      static_cast<int>(c.gate), c.diffuse ? "" : "_no_diffuse",
@@ -68,7 +69,7 @@ std::string name_of(const FrameConfiguration& c) {
 
 class SpanSource {
  public:
-  SpanSource(const FrameConfiguration& configuration, unsigned seed)
+  SpanSource(const DatapathConfiguration& configuration, unsigned seed)
       : configuration_(configuration),
         random_(seed),
         table_(random_table(random_, configuration)) {}
@@ -78,7 +79,7 @@ class SpanSource {
   }
 
  private:
-  FrameConfiguration configuration_;
+  DatapathConfiguration configuration_;
   Random random_;
   HighlightTable table_;
 };
