@@ -47,7 +47,7 @@ std::string DatapathDriver::misbehaviour(std::int64_t patience_clocks) const {
     return fmt::format("pixel_datapath has emitted {} pixels that no span asked for",
                        unasked_pixels_);
   }
-  if (idle_clocks_ > patience_clocks + kIdleClocks * pixels_) {
+  if (idle_clocks_ > 2 * patience_clocks + kIdleClocks * pixels_) {
     return fmt::format(
         "pixel_datapath was idle in {} clocks with work at hand and its output free, over {} "
         "pixels",

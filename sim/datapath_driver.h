@@ -26,7 +26,7 @@ class DatapathDriver {
   std::int64_t busy_clocks() const { return busy_clocks_; }
 
   // Why there is no use in going on, or an empty text: the datapath emits pixels that no span asked
-  // for, or has done nothing, with work at hand and its output free, in more clocks than
+  // for, or has done nothing, with work at hand and its output free, in more clocks than twice
   // `patience_clocks` and kIdleClocks for each pixel.
   std::string misbehaviour(std::int64_t patience_clocks) const;
 

@@ -24,7 +24,7 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
         times_(static_cast<std::size_t>(depth)) {}
 
   // Waits for a slot; what is put there is written by write().
-  T& free_place() {
+  T& free_slot() {
     while (size_ == depth()) wait_for(read_event_, writer_waits_);
     return items_[free_];
   }
@@ -38,7 +38,7 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
     return times.written_at;
   }
   Cycle write(T item, Cycle earliest) {
-    free_place() = std::move(item);
+    free_slot() = std::move(item);
     return write(earliest);
   }
 

@@ -47,7 +47,7 @@ void read_primitive(const TomlTable& table, Object& object) {
 }
 
 fs::path existing_file(const TomlTable& table, std::string_view key) {
-  const fs::path file = table.file().parent_path() / table.text(key);
+  fs::path file = table.file().parent_path() / table.text(key);
   std::error_code ignored;
   if (!fs::exists(file, ignored)) {
     table.fail(key, fmt::format("{} file '{}' does not exist", key, file.string()));

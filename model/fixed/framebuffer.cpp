@@ -28,7 +28,9 @@ T* zeros(std::size_t count) {
   const auto first = reinterpret_cast<std::uintptr_t>(memory);
   const std::uintptr_t begin = (first + kPage - 1) & ~(kPage - 1);
   const std::uintptr_t end = (first + count * sizeof(T)) & ~(kPage - 1);
-  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  if (begin < end) {
+    madvise(static_cast<char*>(memory) + (begin - first), end - begin, MADV_HUGEPAGE);
+  }
 #endif
   return static_cast<T*>(memory);
 }

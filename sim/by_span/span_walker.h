@@ -24,7 +24,7 @@ class SpanWalker : public sc_core::sc_module {
       triangles_.pop(taken);
       Cycle earliest = taken + configuration.walker_triangle_cycles;
       for (const RowSpan& row : work->rows) {
-        context_.front_end.span_walker().start(work->setup, row, spans_.free_place());
+        context_.front_end.span_walker().start(work->setup, row, spans_.free_slot());
         const Cycle written = spans_.write(earliest);
         earliest = written + configuration.walker_row_cycles;
         free_from = written + 1;

@@ -50,6 +50,7 @@ void write_curves(const Options& options, Progress& progress) {
   for (const auto& [name, curve] : curves) {
     print_or_throw(fmt::format("# {}\n{}", curve.title, curve_csv(curve)));
     if (options.out.empty()) continue;
+    std::filesystem::create_directories(options.out);
     write_text(options.out / (name + ".csv"), curve_csv(curve));
     write_text(options.out / (name + ".svg"), svg(chart_of(curve)));
   }
@@ -61,7 +62,7 @@ int compare_methods(const Options& options) {
   }
   check_output(options.json);
   check_output(options.csv);
-  if (!options.out.empty()) make_folder(options.out);
+  if (!options.out.empty()) check_outputs(options.out, {options.out / "a-page"});
   Progress progress;
   if (options.microvax) print_or_throw(microvax_text());
   if (!options.curve.empty()) write_curves(options, progress);

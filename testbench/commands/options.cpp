@@ -53,13 +53,17 @@ void check_output(const std::string& file) {
   if (!file.empty() && file != "-") check_writable(file);
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw InputError(fmt::format("{}: no such folder, and none can be made: {}", folder.string(),
-                                 error.message()));
+void check_outputs(const std::filesystem::path& folder,
+                   const std::vector<std::filesystem::path>& files) {
+  std::error_code none;
+  if (std::filesystem::exists(folder, none)) {
+    for (const std::filesystem::path& file : files) check_writable(file);
+    return;
   }
+  // It will be made: the nearest folder that is there must take a new name.
+  std::filesystem::path made = std::filesystem::absolute(folder);
+  while (!std::filesystem::exists(made.parent_path(), none)) made = made.parent_path();
+  check_writable(made);
 }
 
 CLI::Validator positive_number() {

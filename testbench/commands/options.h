@@ -72,8 +72,10 @@ CLI::Validator positive_number();
 void write_output(const std::string& file, const std::string& text);
 // Throws InputError where write_output() could not, before the work.
 void check_output(const std::string& file);
-// Makes the folder where there is none; throws InputError where it cannot.
-void make_folder(const std::filesystem::path& folder);
+// Throws InputError where `files`, all of one folder that need not be there yet, cannot be written;
+// changes nothing.
+void check_outputs(const std::filesystem::path& folder,
+                   const std::vector<std::filesystem::path>& files);
 
 // --power: how the power of highlights is computed by the methods in real arithmetic.
 void add_power_option(CLI::App& command, std::optional<PowerKind>& power);

@@ -100,6 +100,7 @@ class Verifier {
     if (!options_.json.empty() && options_.json != "-") style.more.push_back(options_.json);
     if (!options_.pictures.empty()) {
       const auto files = picture_files(options_.pictures, name);
+      std::filesystem::create_directories(options_.pictures);
       write_pictures(result, files);
       style.more.push_back(printable(files.back().string()));
     }
@@ -112,10 +113,11 @@ class Verifier {
   void check_outputs() const {
     check_output(options_.json);
     if (options_.pictures.empty()) return;
-    make_folder(options_.pictures);
+    std::vector<std::filesystem::path> files;
     for (const std::string& name : names_) {
-      for (const auto& file : picture_files(options_.pictures, name)) check_writable(file);
+      for (const auto& file : picture_files(options_.pictures, name)) files.push_back(file);
     }
+    phongpipe::check_outputs(options_.pictures, files);
   }
 
   std::string json_text() const {

@@ -59,9 +59,10 @@ std::string listed(const std::vector<std::string>& names) {
 
 // The name that `word` is a likely misspelling of, with or without its subfolder; or an empty text.
 std::string likely_name(const std::string& word, const std::vector<std::string>& names) {
-  const std::string whole = closest_word(word, names);
+  std::string whole = closest_word(word, names);
   if (!whole.empty()) return whole;
   std::vector<std::string> last_parts;
+  last_parts.reserve(names.size());
   for (const std::string& name : names) last_parts.push_back(fs::path(name).filename().string());
   const std::string last = closest_word(word, last_parts);
   const auto found = std::find(last_parts.begin(), last_parts.end(), last);

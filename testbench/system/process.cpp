@@ -223,7 +223,7 @@ std::string Child::get() {
                                     ? fmt::format("signal {}", WTERMSIG(status))
                                     : fmt::format("status {}", WEXITSTATUS(status))));
   }
-  const std::string rest = text.substr(1);
+  std::string rest = text.substr(1);
   switch (text.front()) {
     case kInputError:
       throw InputError(rest);

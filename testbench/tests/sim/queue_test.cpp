@@ -67,7 +67,7 @@ class AheadOfTheClock : public sc_core::sc_module {
       if (i % 2 == 0) {
         times.written.push_back(fifo_.write(item, earliest));
       } else {
-        fifo_.free_place() = item;
+        fifo_.free_slot() = item;
         times.written.push_back(fifo_.write(earliest));
       }
     }

@@ -25,7 +25,7 @@ std::vector<std::uint32_t> shade(const PixelDatapath& datapath, const Span& span
   return colors;
 }
 
-void expect_same(Random& random, const FrameConfiguration& c, Evaluation evaluation, int longest) {
+void expect_same(Random& random, const DatapathConfiguration& c, Evaluation evaluation, int longest) {
   const OutputColor cue_color = random_color(random);
   PixelDatapath stepping(c, Evaluation::stepping, cue_color), closed_form(c, evaluation, cue_color);
   const HighlightTable table = random_table(random, c);
@@ -59,7 +59,7 @@ void expect_batch_is_its_spans(Evaluation evaluation) {
   SCOPED_TRACE(kSeed);
   Random random(kSeed);
   for (int i = 0; i < 100; ++i) {
-    const FrameConfiguration c = random_configuration(random);
+    const DatapathConfiguration c = random_configuration(random);
     PixelDatapath datapath(c, evaluation, random_color(random));
     datapath.load_table(random_table(random, c));
     std::vector<Span> spans;
@@ -97,7 +97,7 @@ TEST(PixelDatapath, TheBestEvaluationEqualsStepping) {
 // The same with the seed left to chance; rapidcheck prints what replays a failure.
 RC_GTEST_PROP(PixelDatapath, AllEvaluationsAgreeForAnyBlocksAndFlags, ()) {
   Random random(*rc::gen::noShrink(rc::gen::arbitrary<unsigned>()));
-  const FrameConfiguration c = random_configuration(random);
+  const DatapathConfiguration c = random_configuration(random);
   RC_TAG(std::string(c.diffuse ? "diffuse " : "") + (c.specular ? "specular " : "") +
          (c.depth_cue ? "depth cueing" : ""));
   for (const Evaluation evaluation : {Evaluation::portable, best_evaluation()}) {
@@ -114,7 +114,7 @@ TEST(PixelDatapath, EveryCombinationOfBlocksInBothWordSizes) {
     for (const GateSource gate : {GateSource::off, GateSource::diffuse, GateSource::series}) {
       for (const int channels : {1, 3}) {
         for (const int fraction : {16, 30}) {
-          FrameConfiguration c;
+          DatapathConfiguration c;
           c.diffuse = (blocks & 1) != 0;
           c.specular = (blocks & 2) != 0;
           c.depth_cue = (blocks & 4) != 0;
@@ -138,7 +138,7 @@ TEST(PixelDatapath, EveryGateAndChannelCountInBothWordSizes) {
     for (const GateSource gate : {GateSource::off, GateSource::diffuse, GateSource::series}) {
       for (const int diffuse_fraction : {4, 22, 23, 30}) {  // 32 bits are 22 of them
         for (const int specular_fraction : {1, 20, 21, 25}) {
-          FrameConfiguration c;
+          DatapathConfiguration c;
           c.channels = channels;
           c.gate = gate;
           c.diffuse_fraction_bits = diffuse_fraction;
@@ -157,7 +157,7 @@ class Pixel : public testing::TestWithParam<Evaluation> {
  protected:
   // A pixel of constant diffuse light and highlight: `diffuse` in LSB with ambient light and half.
   std::uint32_t color(GateSource gate, double diffuse, double specular, double gate_value) {
-    FrameConfiguration c;
+    DatapathConfiguration c;
     c.gate = gate;
     HighlightTable table;
     table.roms.emplace_back(c, 0.5, 1);  // 127.5 at full scale
@@ -198,7 +198,7 @@ class CuedPixel : public testing::TestWithParam<Evaluation> {
  protected:
   std::uint32_t color(double cue_factor, bool first_pass, bool highlight = true,
                       double diffuse = 100.5) {
-    FrameConfiguration c;
+    DatapathConfiguration c;
     c.depth_cue = true;
     HighlightTable table;
     table.roms.emplace_back(c, 0.5, 1);
@@ -246,7 +246,7 @@ INSTANTIATE_TEST_SUITE_P(PixelDatapath, Pixel,
 
 // One lit channel is enough for the highlight of all.
 TEST(PixelDatapath, AnyLitChannelOpensTheHighlight) {
-  FrameConfiguration c;
+  DatapathConfiguration c;
   c.channels = 3;
   HighlightTable table;
   for (int i = 0; i < 3; ++i) table.roms.emplace_back(c, 0.5, 0);  // 128, by 8 bits

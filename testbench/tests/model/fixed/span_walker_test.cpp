@@ -239,7 +239,7 @@ TEST(SpanWalker, LeavesNothingOfTheSpanThatWasThere) {
     const RandomEffects e = random_effects(random);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));
     const FrameSetup frame(e.scene, e.geometry,
-                           with_derived_blocks(e.configuration, e.scene, e.geometry), 24);
+                           with_derived_blocks(e.configuration, e.scene, e.geometry));
     const FrontEnd front_end(frame);
     TriangleWork work;
     for (TriangleOrder next(front_end); !next.done(); next.advance()) {
