@@ -43,6 +43,10 @@ struct AnyMember {
   constexpr operator T() const;  // NOLINT(google-explicit-constructor): the conversion is the point
 };
 
+// Where a member is a std::optional, its constructor and AnyMember's conversion are as good as each
+// other, of which -Wconversion warns. Neither is ever run.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
 template <typename Record, typename Indices, typename = void>
 struct TakesMembers : std::false_type {};
 template <typename Record, std::size_t... kIndex>
@@ -50,6 +54,7 @@ struct TakesMembers<
     Record, std::index_sequence<kIndex...>,
     std::void_t<decltype(Record{(static_cast<void>(kIndex), std::declval<AnyMember>())...})>>
     : std::true_type {};
+#pragma GCC diagnostic pop
 
 }  // namespace detail
 

@@ -1,7 +1,10 @@
 #include "testbench/accuracy/accuracy.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "testbench/accuracy/error_chain.h"
 
@@ -19,14 +22,24 @@ double ErrorStatistics::share(std::uint64_t count) const {
   return samples == 0 ? 0 : static_cast<double>(count) / static_cast<double>(samples);
 }
 
-Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures) {
+void ErrorStatistics::add(const ErrorStatistics& others) {
+  largest_lsb = std::max(largest_lsb, others.largest_lsb);
+  sum_of_squares += others.sum_of_squares;
+  samples += others.samples;
+  over_half += others.over_half;
+  over_one += others.over_one;
+  over_two += others.over_two;
+}
+
+namespace {
+
+// Statistics of some triangles; their pixels of the pictures, which no other triangle shows, are
+// drawn into `whole`.
+Accuracy measure_triangles(const FrameSetup& frame, const ModelFrame& model, std::uint32_t first,
+                           std::uint32_t end, bool pictures, Accuracy& whole) {
   Accuracy accuracy;
   const int channels = frame.configuration.channels;
-  if (pictures) {
-    accuracy.exact_picture = Picture(frame.width, frame.height, channels, frame.background.data());
-    accuracy.error_picture = Picture(frame.width, frame.height, 3, kUncoveredColor.data());
-  }
-  for_each_visible_pixel(frame, model, [&](const ErrorChain& links) {
+  for_each_visible_pixel(frame, model, first, end, [&](const ErrorChain& links) {
     ++accuracy.visible_pixels;
     double largest = 0;
     for (int c = 0; c < channels; ++c) {
@@ -38,14 +51,53 @@ Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool
       largest = std::max(largest, std::fabs(links.output[c] - links.exact[c]));
     }
     if (!pictures) return;
-    std::uint8_t* const exact = accuracy.exact_picture.pixel(links.index);
+    std::uint8_t* const exact = whole.exact_picture.pixel(links.index);
     for (int c = 0; c < channels; ++c) {
       exact[c] = static_cast<std::uint8_t>(std::lround(links.exact[c]));
     }
     const Rgb color = error_color(largest);
-    std::copy(color.begin(), color.end(), accuracy.error_picture.pixel(links.index));
+    std::copy(color.begin(), color.end(), whole.error_picture.pixel(links.index));
   });
   return accuracy;
+}
+
+}  // namespace
+
+Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures) {
+  Accuracy whole;
+  if (pictures) {
+    whole.exact_picture =
+        Picture(frame.width, frame.height, frame.configuration.channels, frame.background.data());
+    whole.error_picture = Picture(frame.width, frame.height, 3, kUncoveredColor.data());
+  }
+  // Always the same parts, added in the same order, so that sums do not depend on the machine.
+  constexpr std::uint32_t kParts = 16;
+  const auto triangles = static_cast<std::uint64_t>(frame.geometry->triangles.size());
+  std::array<Accuracy, kParts> parts;
+  std::atomic<std::uint32_t> next{0};
+  const auto work = [&] {
+    for (std::uint32_t part = next++; part < kParts; part = next++) {
+      const auto bound = [&](std::uint64_t k) {
+        return static_cast<std::uint32_t>(triangles * k / kParts);
+      };
+      parts[part] = measure_triangles(frame, model, bound(part), bound(part + 1), pictures, whole);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned i = 1; i < std::min(std::thread::hardware_concurrency(), kParts); ++i) {
+    threads.emplace_back(work);
+  }
+  work();
+  for (std::thread& thread : threads) thread.join();
+  for (const Accuracy& part : parts) {
+    whole.visible_pixels += part.visible_pixels;
+    whole.total.add(part.total);
+    whole.series.add(part.series);
+    whole.rounding.add(part.rounding);
+    whole.rom.add(part.rom);
+    whole.output.add(part.output);
+  }
+  return whole;
 }
 
 }  // namespace phongpipe

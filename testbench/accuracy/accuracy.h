@@ -28,6 +28,7 @@ struct ErrorStatistics {
     over_one += size > 1;
     over_two += size > 2;
   }
+  void add(const ErrorStatistics& others);
   double rms_lsb() const;
   double psnr_db() const;  // against full scale; infinite without any error
   double share(std::uint64_t count) const;

@@ -186,9 +186,16 @@ class TriangleChain {
 
 void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
                             const std::function<void(const ErrorChain&)>& visit) {
+  for_each_visible_pixel(frame, model, 0,
+                         static_cast<std::uint32_t>(frame.geometry->triangles.size()), visit);
+}
+
+void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model, std::uint32_t first,
+                            std::uint32_t end,
+                            const std::function<void(const ErrorChain&)>& visit) {
   const FrontEnd front_end(frame);
   ErrorChain links;
-  for (std::uint32_t triangle = 0; triangle < front_end.triangles(); ++triangle) {
+  for (std::uint32_t triangle = first; triangle < end; ++triangle) {
     TriangleChain chain(frame, front_end, triangle);
     for (const RowSpan& row : chain.rows()) {
       chain.start(row);

@@ -20,7 +20,10 @@ struct ErrorChain {
   Color output;           // the datapath's output
 };
 
-// For every visible pixel of the model's frame, triangle by triangle.
+// For every visible pixel of the model's frame, triangle by triangle from `first` to before `end`.
+void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model, std::uint32_t first,
+                            std::uint32_t end, const std::function<void(const ErrorChain&)>& visit);
+// Of all triangles.
 void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
                             const std::function<void(const ErrorChain&)>& visit);
 

@@ -180,7 +180,7 @@ VerificationResult verify(const Scene& scene, const Hardware& hardware,
   }
   result.accuracy = measure_accuracy(frame.setup, model.frame, options.pictures);
   if (options.pictures) {
-    result.result_picture = picture_of(model.frame.colors(), result.width, result.height,
+    result.result_picture = picture_of(model.frame.framebuffer, result.width, result.height,
                                        frame.setup.configuration.channels);
   }
   const auto finish = [&](const Implementation& implementation, Child& child) {

@@ -25,22 +25,25 @@ std::size_t pixels(int width, int height) {
 
 Picture::Picture(int width_, int height_, int channels_, const std::uint8_t* color)
     : width(width_), height(height_), channels(channels_) {
-  bytes.resize(pixels(width, height) * static_cast<std::size_t>(channels));
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    bytes[i] = color[i % static_cast<std::size_t>(channels)];
+  const auto size = static_cast<std::size_t>(channels);
+  if (channels == 1) {
+    bytes.assign(pixels(width, height), *color);
+    return;
   }
+  bytes.resize(pixels(width, height) * size);
+  for (std::size_t i = 0; i < bytes.size(); i += size) std::copy(color, color + size, &bytes[i]);
 }
 
-Picture picture_of(const std::vector<std::uint32_t>& colors, int width, int height, int channels) {
+Picture picture_of(const Framebuffer& framebuffer, int width, int height, int channels) {
   Picture picture;
   picture.width = width;
   picture.height = height;
   picture.channels = channels;
-  picture.bytes.reserve(colors.size() * static_cast<std::size_t>(channels));
-  for (const std::uint32_t color : colors) {
-    for (int c = 0; c < channels; ++c) {
-      picture.bytes.push_back(static_cast<std::uint8_t>(color >> (8 * c)));
-    }
+  picture.bytes.resize(framebuffer.size() * static_cast<std::size_t>(channels));
+  std::uint8_t* byte = picture.bytes.data();
+  for (std::size_t i = 0; i < framebuffer.size(); ++i) {
+    const std::uint32_t color = framebuffer.color(i);
+    for (int c = 0; c < channels; ++c) *byte++ = static_cast<std::uint8_t>(color >> (8 * c));
   }
   return picture;
 }
@@ -90,6 +93,7 @@ void write_png(const std::filesystem::path& file, const Picture& picture) {
   constexpr int kUp = 2;
   stbi_write_force_png_filter = kUp;
   std::string bytes;
+  bytes.reserve(picture.bytes.size() / 4);
   stbi_write_png_to_func(append, &bytes, picture.width, picture.height, picture.channels,
                          picture.bytes.data(), picture.width * picture.channels);
   write_text(file, bytes);

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "model/fixed/framebuffer.h"
 #include "model/scene/scene.h"
+#include "testbench/system/large_memory.h"
 
 namespace phongpipe {
 
@@ -14,8 +16,8 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 struct Picture {
   int width = 0, height = 0;
-  int channels = 1;                 // 1 or 3
-  std::vector<std::uint8_t> bytes;  // row by row from the top
+  int channels = 1;                                               // 1 or 3
+  std::vector<std::uint8_t, LargeAllocator<std::uint8_t>> bytes;  // row by row from the top
 
   Picture() = default;
   // All of one colour, of which the first `channels` bytes are taken.
@@ -25,8 +27,8 @@ struct Picture {
   }
 };
 
-// Framebuffer colours, channel 0 in the low byte.
-Picture picture_of(const std::vector<std::uint32_t>& colors, int width, int height, int channels);
+// What a framebuffer shows.
+Picture picture_of(const Framebuffer& framebuffer, int width, int height, int channels);
 // The same in LSB, as three channels.
 std::vector<Color> in_lsb(const std::vector<std::uint32_t>& colors, int channels);
 // Real colours in LSB, rounded; grey ones if `channels` is 1.

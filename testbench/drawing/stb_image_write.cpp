@@ -2,6 +2,9 @@
 #include <zlib.h>
 
 #include <cstdlib>
+#include <cstring>
+
+#include "testbench/system/large_memory.h"
 
 namespace {
 
@@ -10,7 +13,7 @@ constexpr int kFast = 1;
 
 unsigned char* compress_fast(unsigned char* data, int length, int* compressed_length, int) {
   uLongf size = compressBound(static_cast<uLong>(length));
-  auto* out = static_cast<unsigned char*>(std::malloc(size));  // stb frees it
+  auto* out = static_cast<unsigned char*>(phongpipe::allocate_large(size));  // stb frees it
   if (out == nullptr) return nullptr;
   if (compress2(out, &size, data, static_cast<uLong>(length), kFast) != Z_OK) {
     std::free(out);
@@ -22,6 +25,9 @@ unsigned char* compress_fast(unsigned char* data, int length, int* compressed_le
 
 }  // namespace
 
+#define STBIW_MALLOC(size) phongpipe::allocate_large(size)
+#define STBIW_REALLOC(memory, size) std::realloc(memory, size)
+#define STBIW_FREE(memory) std::free(memory)
 #define STBIW_ZLIB_COMPRESS compress_fast
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #include <stb_image_write.h>

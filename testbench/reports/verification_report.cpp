@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "testbench/cosim/metrics.h"
+#include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
 
 namespace phongpipe {
@@ -350,9 +351,13 @@ std::array<std::filesystem::path, 3> picture_files(const std::filesystem::path& 
 
 void write_pictures(const VerificationResult& r,
                     const std::array<std::filesystem::path, 3>& files) {
-  write_png(files[0], r.result_picture);
-  write_png(files[1], r.accuracy.exact_picture);
+  Child beside([&] {
+    write_png(files[0], r.result_picture);
+    write_png(files[1], r.accuracy.exact_picture);
+    return std::string("written");
+  });
   write_png(files[2], r.accuracy.error_picture);
+  beside.get();
 }
 
 }  // namespace phongpipe
