@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <functional>
 #include <set>
-#include <sstream>
 
 #include "model/fixed/model_frame.h"
 #include "sim/pipeline.h"
 #include "testbench/cases/random_effects.h"
 #include "testbench/system/process.h"
+#include "testbench/system/record_json.h"
 
 namespace phongpipe {
 namespace {
@@ -38,18 +38,12 @@ Elaborated simulate_apart(const FrameSetup& frame, Detail detail) {
     SimulationOptions options;
     options.detail = detail;
     const SimulationResult result = simulate(frame, PipelineConfiguration(), options);
-    std::ostringstream text;
-    const PixelOperations& pixel = result.pixel_operations;
-    text << pixel.additions << ' ' << pixel.multiplications << ' ' << pixel.reads << ' '
-         << result.depth_additions;
-    for (const std::string& module : result.modules) text << ' ' << module;
-    return text.str();
+    return to_bytes(static_cast<const SimulationCounts&>(result));
   });
-  std::istringstream text(child.get());
-  Elaborated e;
-  text >> e.pixel.additions >> e.pixel.multiplications >> e.pixel.reads >> e.depth_additions;
-  for (std::string module; text >> module;) e.modules.insert(module);
-  return e;
+  const auto counts = from_bytes<SimulationCounts>(child.get());
+  return {{counts.modules.begin(), counts.modules.end()},
+          counts.pixel_operations,
+          counts.depth_additions};
 }
 
 void expect_blocks(const Elaborated& e, const FrameSetup& frame) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <sstream>
 #include <string>
 
 #include "model/files/scene_file.h"
@@ -17,6 +16,7 @@
 #include "testbench/cases/random_effects.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/system/process.h"
+#include "testbench/system/record_json.h"
 
 namespace phongpipe {
 namespace {
@@ -65,31 +65,20 @@ std::size_t total(const OperationCounts& counts) {
   return counts.add + counts.multiply + counts.rsqrt + counts.power;
 }
 
-// What a simulation executed.
-struct Executed {
-  std::size_t setup = 0;
-  PixelOperations pixel;
-  std::int64_t rom_load_cycles = 0;
-  std::string modules;
-};
-
-Executed execute(const FrameSetup& frame, Detail detail = Detail::span) {
+SimulationCounts execute(const FrameSetup& frame, Detail detail = Detail::span) {
   Child child([&] {
     SimulationOptions options;
     options.detail = detail;
-    const SimulationResult result = simulate(frame, PipelineConfiguration(), options);
-    std::ostringstream text;
-    text << total(result.setup_operations) << ' ' << result.pixel_operations.additions << ' '
-         << result.pixel_operations.reads << ' ' << result.rom_load_cycles;
-    for (const std::string& module : result.modules) text << ' ' << module;
-    return text.str();
+    const SimulationCounts counts = simulate(frame, PipelineConfiguration(), options);
+    return to_bytes(counts);
   });
-  std::istringstream text(child.get());
-  Executed executed;
-  text >> executed.setup >> executed.pixel.additions >> executed.pixel.reads >>
-      executed.rom_load_cycles;
-  std::getline(text, executed.modules);
-  return executed;
+  return from_bytes<SimulationCounts>(child.get());
+}
+
+bool has_module(const SimulationCounts& counts, const std::string& part) {
+  return std::any_of(counts.modules.begin(), counts.modules.end(), [&](const std::string& module) {
+    return module.find(part) != std::string::npos;
+  });
 }
 
 class OperationsOf {
@@ -136,7 +125,7 @@ TEST_P(SharpPawn, HalfTheHighlightsSetupIsSavedTestsIncluded) {
   EXPECT_GE((static_cast<double>(full) - static_cast<double>(executed)) / of_highlights, 0.5);
   // Of the highlight alone, though it pays for all tests.
   EXPECT_GE(1 - static_cast<double>(more) / of_highlights, 0.5);
-  EXPECT_EQ(executed, execute(frame).setup) << "the simulation counts the same";
+  EXPECT_EQ(executed, total(execute(frame).setup_operations)) << "the simulation counts the same";
 }
 
 TEST_P(SharpPawn, HalfTheHighlightsStepsAndReadsAreSaved) {
@@ -155,10 +144,10 @@ TEST_P(SharpPawn, HalfTheHighlightsStepsAndReadsAreSaved) {
   });
   EXPECT_LE(2 * stepped, pixels);
   EXPECT_LE(2 * read, pixels);
-  const Executed own = execute(frame);
-  const Executed all = execute(pawn_.frame(Effects::all).setup);
-  EXPECT_EQ(own.pixel.reads, read);
-  EXPECT_EQ(all.pixel.reads, pixels);
+  const SimulationCounts own = execute(frame);
+  const SimulationCounts all = execute(pawn_.frame(Effects::all).setup);
+  EXPECT_EQ(own.pixel_operations.reads, read);
+  EXPECT_EQ(all.pixel_operations.reads, pixels);
 }
 
 // Everything has three channels, of which the pawn's are alike.
@@ -176,12 +165,12 @@ TEST_P(ElisionIn, ADiffuseSceneHasNoHighlightAnywhere) {
   const Prepared diffuse("effects/diffuse");
   const PreparedFrame prepared = diffuse.frame();
   const FrameSetup& frame = prepared.setup;
-  const Executed executed = execute(frame, GetParam());
+  const SimulationCounts executed = execute(frame, GetParam());
   for (const char* module : {"specular_series", "exponent_rom", "gate_series"}) {
-    EXPECT_EQ(executed.modules.find(module), std::string::npos) << executed.modules;
+    EXPECT_FALSE(has_module(executed, module)) << module;
   }
-  EXPECT_NE(executed.modules.find("diffuse_series"), std::string::npos) << executed.modules;
-  EXPECT_EQ(executed.pixel.reads, 0U);
+  EXPECT_TRUE(has_module(executed, "diffuse_series"));
+  EXPECT_EQ(executed.pixel_operations.reads, 0U);
   EXPECT_EQ(executed.rom_load_cycles, 0);
   // The two of each diffuse series' pixel where it has one, and nothing else.
   OperationsOf operations;
@@ -192,8 +181,8 @@ TEST_P(ElisionIn, ADiffuseSceneHasNoHighlightAnywhere) {
     setup += operations(work.setup.plan);
     if (is_present(work.setup.plan.diffuse)) steps += 2 * pixels_of(work);
   });
-  EXPECT_EQ(executed.setup, setup);
-  EXPECT_EQ(executed.pixel.additions, steps);
+  EXPECT_EQ(total(executed.setup_operations), setup);
+  EXPECT_EQ(executed.pixel_operations.additions, steps);
 }
 
 // No step, no more than the highlight's sum and one read for each pixel.
@@ -201,15 +190,15 @@ TEST_P(ElisionIn, PlanesHaveNoSteps) {
   const Prepared planes("two-planes");
   const PreparedFrame prepared = planes.frame();
   const FrameSetup& frame = prepared.setup;
-  const Executed executed = execute(frame, GetParam());
+  const SimulationCounts executed = execute(frame, GetParam());
   std::uint64_t pixels = 0;
   for_each_setup(frame, [&](SetupOutcome, const TriangleWork& work) {
     EXPECT_EQ(work.setup.plan.light(), SeriesForm::constant);
     EXPECT_EQ(work.setup.plan.specular, SeriesForm::constant);
     pixels += pixels_of(work);
   });
-  EXPECT_EQ(executed.pixel.reads, pixels);
-  EXPECT_EQ(executed.pixel.additions, pixels);
+  EXPECT_EQ(executed.pixel_operations.reads, pixels);
+  EXPECT_EQ(executed.pixel_operations.additions, pixels);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pipeline, ElisionIn, testing::Values(Detail::span, Detail::cycle),
