@@ -88,6 +88,7 @@ void HardwareOptions::add_to(CLI::App& command) {
   command
       .add_option("--hardware", hardware,
                   "Preset (default, paper-1k, paper-8k) or hardware TOML file")
+      ->type_name("PRESET|FILE")
       ->capture_default_str();
   command
       .add_option("--set", overrides,

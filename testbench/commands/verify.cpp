@@ -168,7 +168,7 @@ void add_verify(CLI::App& application, Run& run) {
   command
       ->add_option("--stall", v.stall_percent,
                    "Random back-pressure: per cent of pixels the framebuffer stalls at")
-      ->type_name("0…100")
+      ->type_name("0-100")
       ->check(CLI::Range(0, 100).description(""));
   command->add_option("--seed", v.seed, "Of the random back-pressure")
       ->capture_default_str()
