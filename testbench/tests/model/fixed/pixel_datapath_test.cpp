@@ -25,7 +25,8 @@ std::vector<std::uint32_t> shade(const PixelDatapath& datapath, const Span& span
   return colors;
 }
 
-void expect_same(Random& random, const DatapathConfiguration& c, Evaluation evaluation, int longest) {
+void expect_same(Random& random, const DatapathConfiguration& c, Evaluation evaluation,
+                 int longest) {
   const OutputColor cue_color = random_color(random);
   PixelDatapath stepping(c, Evaluation::stepping, cue_color), closed_form(c, evaluation, cue_color);
   const HighlightTable table = random_table(random, c);
