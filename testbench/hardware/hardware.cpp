@@ -108,8 +108,8 @@ Settings<Hardware> all_settings() {
   add(PipelineConfiguration::settings(), &Hardware::pipeline);
   add(FixedPointFormats::settings(), &Hardware::formats);
   const auto place = [](const HardwareSetting& setting) {
-    constexpr std::string_view kSections[] = {"datapath", "setup_engine", "span_walker",
-                                              "framebuffer", "queues"};
+    static constexpr std::string_view kSections[] = {"datapath", "setup_engine", "span_walker",
+                                                     "framebuffer", "queues"};
     return std::find(std::begin(kSections), std::end(kSections), setting.section);
   };
   std::stable_sort(all.begin(), all.end(), [&](const HardwareSetting& a, const HardwareSetting& b) {
