@@ -97,7 +97,9 @@ class Verifier {
     style.color = color_wanted();
     style.verbose = options_.verbose;
     style.options = options_text(options_);
-    if (!options_.json.empty() && options_.json != "-") style.more.push_back(options_.json);
+    if (!options_.json.empty() && options_.json != "-") {
+      style.more.push_back(printable(options_.json));
+    }
     if (!options_.pictures.empty()) {
       const auto files = picture_files(options_.pictures, name);
       std::filesystem::create_directories(options_.pictures);
