@@ -19,7 +19,7 @@ rate() { value "$1" "$2" 7; }
 
 echo "model, AVX2 or better, over Phong in double: 64-pixel spans $(ratio "$(rate model model/best/64)" "$(rate model phong_in_double/64)"), the pawn's spans $(ratio "$(rate model model/best/0)" "$(rate model phong_in_double/0)")"
 echo "model, portable, over Phong in double:       64-pixel spans $(ratio "$(rate model model/portable/64)" "$(rate model phong_in_double/64)"), the pawn's spans $(ratio "$(rate model model/portable/0)" "$(rate model phong_in_double/0)")"
-echo "RTL compared with the model over bare RTL:   $(ratio "$(rate rtl compared)" "$(rate rtl bare)") ($(rate rtl bare) pixels/s bare)"
+echo "RTL compared with the model over bare RTL:   $(ratio "$(rate rtl compared/real_time)" "$(rate rtl bare)") ($(rate rtl bare) pixels/s bare)"
 bare_ms=$(awk -v rate="$(rate rtl bare)" 'BEGIN { print 1281288 / rate * 1000 }')  # for the pawn's pixels
 echo "SystemC by span over bare RTL, pawn frame:   $(ratio "$(value systemc by_span/manual_time 3)" "$bare_ms")"
 echo "SystemC by clock over by span, pawn frame:   $(ratio "$(value systemc by_clock/manual_time 3)" "$(value systemc by_span/manual_time 3)") ($(value systemc by_span/manual_time 3) ms by span)"

@@ -2,29 +2,45 @@
 // frame.
 #pragma once
 
+#include <memory>
+
 #include "model/fixed/frame_setup.h"
 #include "model/scene/subdivision.h"
 
 namespace phongpipe {
 
-// All that is known of a frame before its first triangle is set up. `setup` refers to the other
-// members, so that it stays where it was made.
-struct PreparedFrame {
+// A scene with its triangles on the screen: what frames of different hardware have in common.
+struct PreparedScene {
   Scene scene;
+  Geometry geometry;  // not subdivided
+
+  explicit PreparedScene(Scene scene_)
+      : scene(std::move(scene_)), geometry(make_geometry(scene)) {}
+};
+
+// All that is known of a frame before its first triangle is set up. `setup` refers to
+// the other members, so that a frame stays where it was made.
+struct PreparedFrame {
+  std::shared_ptr<const PreparedScene> prepared;
   Subdivision subdivision;  // of the scene's triangles, as the policy has it
   FrameSetup setup;
 
   // Throws InputError where the scene asks for what the pipeline does not simulate.
+  PreparedFrame(std::shared_ptr<const PreparedScene> prepared_, const FixedPointFormats& formats,
+                const SetupPolicy& policy, Effects effects = Effects::derived)
+      : prepared(std::move(prepared_)),
+        subdivision(subdivide(scene(), prepared->geometry, policy.subdivide_degrees)),
+        setup(scene(), subdivision.geometry,
+              {{formats, derive_blocks(formats, scene(), subdivision.geometry, effects)}, policy},
+              effects) {}
   PreparedFrame(Scene scene_, const FixedPointFormats& formats, const SetupPolicy& policy,
                 Effects effects = Effects::derived)
-      : scene(std::move(scene_)),
-        subdivision(subdivide(scene, make_geometry(scene), policy.subdivide_degrees)),
-        setup(scene, subdivision.geometry,
-              {{formats, derive_blocks(formats, scene, subdivision.geometry, effects)}, policy},
-              effects) {}
+      : PreparedFrame(std::make_shared<const PreparedScene>(std::move(scene_)), formats, policy,
+                      effects) {}
   PreparedFrame(const PreparedFrame&) = delete;
   PreparedFrame& operator=(const PreparedFrame&) = delete;
 
+  const Scene& scene() const { return prepared->scene; }
   const Geometry& geometry() const { return subdivision.geometry; }
 };
 

@@ -16,7 +16,9 @@ Fingerprint StreamHash::fingerprint(const Framebuffer& framebuffer, int channels
   framebuffer.for_each_covered([&](std::size_t index, std::uint32_t color) {
     frame.add(std::uint64_t{index} << 32 | in_color(color, channels));
   });
-  return {pixels_, stream_.value(), frame.value(), cycles_.value()};
+  Fingerprint result = fingerprint();
+  result.frame_hash = frame.value();
+  return result;
 }
 
 std::uint64_t count_frame_mismatches(const Framebuffer& model, int model_channels,

@@ -15,12 +15,19 @@ class StreamHash {
     stream_.add(std::uint64_t{pixel.color} << 32 | std::uint64_t{pixel.y} << 16 | pixel.x);
     ++pixels_;
   }
+  // Of a span.
+  void add(const RowSpan& row, const std::uint32_t* colors) {
+    for (int i = 0; i < row.length; ++i) {
+      add({static_cast<std::uint16_t>(row.x + i), static_cast<std::uint16_t>(row.y), colors[i]});
+    }
+  }
   void add(const ShadedPixel* pixels, const std::int64_t* cycles, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       add(pixels[i]);
       cycles_.add(static_cast<std::uint64_t>(cycles[i]));
     }
   }
+  Fingerprint fingerprint() const { return {pixels_, stream_.value(), 0, cycles_.value()}; }
   // With the hash of the frame at the end, as an image of three channels.
   Fingerprint fingerprint(const Framebuffer& framebuffer, int channels) const;
 
@@ -28,6 +35,11 @@ class StreamHash {
   FnvHash stream_, cycles_;
   std::uint64_t pixels_ = 0;
 };
+
+// Whether two streams have the same pixels.
+inline bool same_stream(const Fingerprint& a, const Fingerprint& b) {
+  return a.pixels == b.pixels && a.stream_hash == b.stream_hash;
+}
 
 // Pixels of the final frames that differ; a grey frame is compared with all channels of one in
 // colour.

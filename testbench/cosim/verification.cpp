@@ -95,17 +95,14 @@ struct ModelRun {
 ModelRun run_and_hash_model(const FrameSetup& frame) {
   StreamHash hash;
   ModelFrame model = run_model(frame, [&hash](const Span& span, const std::uint32_t* colors) {
-    for (int i = 0; i < span.row.length; ++i) {
-      hash.add({static_cast<std::uint16_t>(span.row.x + i), static_cast<std::uint16_t>(span.row.y),
-                colors[i]});
-    }
+    hash.add(span.row, colors);
   });
   const Fingerprint fingerprint = hash.fingerprint(model.framebuffer, frame.configuration.channels);
   return {std::move(model), fingerprint};
 }
 
 bool same_pixels(const Fingerprint& a, const Fingerprint& b) {
-  return a.pixels == b.pixels && a.stream_hash == b.stream_hash && a.frame_hash == b.frame_hash;
+  return same_stream(a, b) && a.frame_hash == b.frame_hash;
 }
 
 void describe_frame(const PreparedFrame& frame, VerificationResult& result) {
@@ -146,8 +143,9 @@ bool VerificationResult::passed() const {
          same_cycles() && within_budget() && set_up.overflows == 0;
 }
 
-VerificationResult verify(const Scene& scene, const Hardware& hardware,
-                          const VerificationOptions& options, const ShowProgress& progress) {
+VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
+                          const Hardware& hardware, const VerificationOptions& options,
+                          const ShowProgress& progress) {
   const auto show = [&progress](const std::string& what) {
     if (progress) progress(what);
   };
@@ -155,7 +153,7 @@ VerificationResult verify(const Scene& scene, const Hardware& hardware,
   const Effects effects = options.effects == EffectsToVerify::all ? Effects::all : Effects::derived;
   const PreparedFrame frame(scene, hardware.formats, hardware.setup, effects);
   VerificationResult result;
-  result.scene = scene.source;
+  result.scene = scene->scene.source;
   result.options = options;
   result.hardware = resolved(hardware, frame.setup.configuration);
   result.clock_ns = hardware.technology.clock_ns(frame.setup.configuration);
@@ -179,7 +177,7 @@ VerificationResult verify(const Scene& scene, const Hardware& hardware,
   result.set_up = model.frame.triangles;
   result.pixels = model.frame.pixels;
   if (result.pixels == 0) {
-    throw InputError(scene.source, 0,
+    throw InputError(scene->scene.source, 0,
                      "nothing of the scene covers a pixel; look at the camera and the objects");
   }
   result.accuracy = measure_accuracy(frame.setup, model.frame, options.pictures);

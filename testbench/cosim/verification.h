@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -73,7 +74,13 @@ struct VerificationResult {
 using ShowProgress = std::function<void(const std::string&)>;
 
 // Throws InputError where nothing is to be seen, or where the technology has no such clock.
-VerificationResult verify(const Scene& scene, const Hardware& hardware,
-                          const VerificationOptions& options, const ShowProgress& progress = {});
+VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
+                          const Hardware& hardware, const VerificationOptions& options,
+                          const ShowProgress& progress = {});
+inline VerificationResult verify(const Scene& scene, const Hardware& hardware,
+                                 const VerificationOptions& options,
+                                 const ShowProgress& progress = {}) {
+  return verify(std::make_shared<const PreparedScene>(scene), hardware, options, progress);
+}
 
 }  // namespace phongpipe
