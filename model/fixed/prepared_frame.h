@@ -1,5 +1,4 @@
-// The way of a scene to the hardware, in one step: geometry, subdivision, blocks, setup of the
-// frame.
+// Prepares a scene for the hardware in one step: geometry, subdivision, blocks, setup of the frame.
 #pragma once
 
 #include "model/fixed/frame_setup.h"
@@ -7,14 +6,14 @@
 
 namespace phongpipe {
 
-// All that is known of a frame before its first triangle is set up. `setup` refers to the other
-// members, so that it stays where it was made.
+// All data of a frame before its first triangle is set up. `setup` refers to the other members, so
+// the object cannot be moved.
 struct PreparedFrame {
   Scene scene;
-  Subdivision subdivision;  // of the scene's triangles, as the policy has it
+  Subdivision subdivision;  // of the scene's triangles, by the policy
   FrameSetup setup;
 
-  // Throws InputError where the scene asks for what the pipeline does not simulate.
+  // Throws InputError if the scene uses what the pipeline does not simulate.
   PreparedFrame(Scene scene_, const FixedPointFormats& formats, const SetupPolicy& policy,
                 Effects effects = Effects::derived)
       : scene(std::move(scene_)),
