@@ -20,11 +20,11 @@ struct Span {
   std::uint32_t triangle = 0;  // index into Geometry::triangles
   std::uint32_t table = 0;     // index into FrameSetup::tables, for the highlight
   bool first_pass = true;      // first light: written; further lights: added
-  // False if the datapath need not do it: for series that keep their first value, and for a
+  // False where the datapath can save work: on series that keep their first value, and on a
   // highlight whose words are all 0.
   bool step_diffuse = true, step_specular = true;
   bool highlight = true;
-  std::array<std::int64_t, 3> level = {};  // as in MaterialSetup
+  std::array<std::int64_t, 3> level = {};  // ambient plus the rounding half, as in MaterialSetup
   SeriesStart specular;
   std::array<SeriesStart, 3> diffuse;      // of the channels in use
   SeriesStart gate;                        // if it is a separate series
