@@ -34,7 +34,7 @@ struct SimulationOptions {
   // does not record them.
   std::function<void(const ShadedPixel* pixels, const std::int64_t* cycles, std::size_t count)>
       observe;
-  // The pipeline counts as stuck if nothing has moved for so many cycles.
+  // The pipeline counts as stuck if nothing has moved for this many cycles.
   std::int64_t watchdog_cycles = 1'000'000;
 };
 

@@ -52,7 +52,7 @@ class PixelDatapath : public sc_core::sc_module {
 
   void deliver(const ShadedPixel& pixel, Cycle cycle) {
     context_.record(pixel, cycle);
-    if (in_flight_.empty()) return;  // it belongs to no span; the comparison will tell
+    if (in_flight_.empty()) return;  // the pixel belongs to no span; the comparison reports it
     const Span& span = in_flight_.front();
     pixels_.push({pixel, phongpipe::Framebuffer::depth(context_.frame, span, delivered_),
                   span.triangle, span.first_pass});
