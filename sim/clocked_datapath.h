@@ -1,5 +1,5 @@
-// The ports of pixel_datapath, clock by clock: what the SystemC pipeline drives, whether the
-// model's values or the Verilated RTL are behind them.
+// The ports of pixel_datapath, clock by clock. The SystemC pipeline drives them; behind them are
+// the model's values or the Verilated RTL.
 #pragma once
 
 #include "model/fixed/frame_setup.h"
@@ -8,9 +8,9 @@
 namespace phongpipe {
 
 struct DatapathInputs {
-  const Span* span = nullptr;  // span_valid where not null; held until span_ready
+  const Span* span = nullptr;  // span_valid if not null; held until span_ready
   bool pixel_ready = false;
-  const HighlightTable* table = nullptr;  // rom_write where not null: every channel's word
+  const HighlightTable* table = nullptr;  // rom_write if not null: one word per channel,
   int rom_address = 0;                    // at this address
 };
 
@@ -25,7 +25,7 @@ class ClockedDatapath {
   virtual ~ClockedDatapath() = default;
   // Synchronous reset, one clock; the table keeps its words.
   virtual void reset() = 0;
-  // One clock: outputs as they stand before its edge, given these inputs.
+  // Executes one clock with these inputs; returns the outputs as they stand before its edge.
   virtual DatapathOutputs clock(const DatapathInputs& inputs) = 0;
 };
 

@@ -1,6 +1,7 @@
-// A bounded queue between modules that act in every clock. What one clock writes is seen in the
-// next, and so is the slot that one clock frees: both flags are registered, as in hardware.
-// (sc_fifo is like it, but its front can not be looked at without taking it, as valid/ready wants.)
+// A bounded queue between modules that act in every clock. An item written in one clock becomes
+// visible in the next, and so does a slot freed: both flags are registered, as in hardware.
+// (sc_fifo is similar, but cannot show its front item without removing it, which valid/ready
+// needs.)
 #pragma once
 
 #include <systemc>

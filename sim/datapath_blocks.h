@@ -1,5 +1,6 @@
-// The blocks inside pixel_datapath, as modules: those the configuration has are elaborated, and
-// each counts the operations it executes. Values come from the model, many pixels at a time.
+// The blocks inside pixel_datapath as SystemC modules. Only the blocks of the configuration are
+// elaborated; each counts the operations it executes. Values come from the model, many pixels at a
+// time.
 #pragma once
 
 #include <cstdint>
@@ -32,19 +33,19 @@ class DatapathBlock : public sc_core::sc_module {
   PixelOperations operations;
 };
 
-// To be made inside the constructor of the module they are part of.
+// Construct it inside the constructor of the module that contains the blocks.
 class DatapathBlocks {
  public:
   explicit DatapathBlocks(const DatapathConfiguration& configuration);
 
-  // Counts what the span's pixels take.
+  // Counts the operations of the span's pixels.
   void shade(const Span& span);
   PixelOperations operations() const;
 
  private:
   using Block = std::unique_ptr<DatapathBlock>;
 
-  std::vector<Block> diffuse_, color_sum_, depth_cue_;  // one a channel, or none
+  std::vector<Block> diffuse_, color_sum_, depth_cue_;  // one per channel, or none
   Block specular_, gate_, exponent_rom_, cue_series_;   // or null
 };
 

@@ -1,5 +1,5 @@
-// pixel_datapath by the clock: the model's values in as many stages as the datapath has latency,
-// each of which moves on when the next one is free.
+// pixel_datapath, clock by clock: the model's values, in a pipeline with one stage per clock of
+// latency. A stage advances when the next one is free.
 #pragma once
 
 #include <vector>

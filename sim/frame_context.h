@@ -1,4 +1,4 @@
-// What all modules of one simulation share.
+// Data shared by all modules of one simulation.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,8 @@ struct FrameContext {
   SetupTimes setup_times;       // of the setup engine's plans
   std::uint64_t delivered = 0;  // pixels that have left pixel_datapath
 
-  // Sets up what is next; `busy` grows by the cycles it takes, which may be many for nothing.
+  // Sets up the next triangle and adds its cycles to `busy`, which thus also counts triangles left
+  // out.
   SetupOutcome set_up(const TriangleOrder& next, TriangleWork& work, Cycle& busy) {
     const SetupOutcome outcome = front_end.set_up(next.triangle(), next.pass(), work);
     if (outcome == SetupOutcome::nothing) return outcome;
@@ -56,8 +57,8 @@ struct FrameContext {
   void record(const ShadedPixel& pixel, Cycle cycle) { record(&pixel, &cycle, 1); }
 
  private:
-  // So that the same pixel stalls whatever the detail and whatever is behind the ports; the mixing
-  // constants are those of the finaliser of MurmurHash3.
+  // A hash of the pixel's index, so that the same pixels stall at every detail and with every
+  // datapath. The mixing constants are those of the finaliser of MurmurHash3.
   static std::uint32_t scramble(std::uint32_t x) {
     x ^= x >> 16;
     x *= 0x85ebca6bU;

@@ -25,33 +25,33 @@ enum class Detail { span, cycle };
 
 struct SimulationOptions {
   Detail detail = Detail::span;
-  // Behind the ports of pixel_datapath; null for the SystemC module's own values.
+  // The implementation behind the ports of pixel_datapath; null: the SystemC module's own values.
   ClockedDatapath* datapath = nullptr;
   // Random back-pressure: the framebuffer takes 1 to 8 cycles more for this share of pixels.
   int stall_percent = 0;
   std::uint32_t stall_seed = 1;
-  // Told of the pixels as they leave pixel_datapath, with the cycle of each, in place of the record
-  // in the result.
+  // Called with the pixels as they leave pixel_datapath, and the cycle of each. The result then
+  // does not record them.
   std::function<void(const ShadedPixel* pixels, const std::int64_t* cycles, std::size_t count)>
       observe;
-  // A pipeline in which nothing has moved for so many cycles is stuck.
+  // The pipeline counts as stuck if nothing has moved for this many cycles.
   std::int64_t watchdog_cycles = 1'000'000;
 };
 
-// What a simulation counts.
+// Counts of one simulation.
 struct SimulationCounts {
   std::int64_t frame_cycles = 0;     // until the framebuffer has taken the last pixel
-  std::int64_t datapath_cycles = 0;  // until pixel_datapath has delivered it
-  std::int64_t setup_cycles = 0;     // in which the setup engine was at work
+  std::int64_t datapath_cycles = 0;  // until pixel_datapath has delivered the last pixel
+  std::int64_t setup_cycles = 0;     // in which the setup engine was busy
   std::int64_t rom_load_cycles = 0;
-  // In which a ClockedDatapath held a pixel or was offered a span; 0 for the closed form by the
-  // span.
+  // Cycles in which a ClockedDatapath held a pixel or was offered a span; 0 by_span without a
+  // ClockedDatapath.
   std::int64_t datapath_busy_cycles = 0;
   OperationCounts setup_operations;
-  PixelOperations pixel_operations;  // unless a ClockedDatapath shades by the span
+  PixelOperations pixel_operations;  // not counted by_span with a ClockedDatapath
   std::uint64_t depth_additions = 0;
-  std::vector<std::string> modules;  // elaborated, with their parents' names
-  std::string failure;  // why the pipeline stopped, with every module's queue; empty if all is well
+  std::vector<std::string> modules;  // hierarchical names of the elaborated modules
+  std::string failure;               // why the simulation stopped early, and its state; else empty
 
   static constexpr auto fields() {
     using C = SimulationCounts;
@@ -69,13 +69,13 @@ struct SimulationCounts {
 struct SimulationResult : SimulationCounts {
   explicit SimulationResult(const FrameSetup& frame) : framebuffer(frame) {}
 
-  // Unless they are observed: the pixels as they leave pixel_datapath, and the cycle of each.
+  // The pixels as they leave pixel_datapath, and the cycle of each; empty with options.observe.
   std::vector<ShadedPixel> stream;
   std::vector<std::uint32_t> pixel_cycles;
   Framebuffer framebuffer;  // at the end
 };
 
-// Simulates one frame. SystemC elaborates once a process: a second call throws std::logic_error.
+// Simulates one frame. SystemC elaborates once per process: a second call throws std::logic_error.
 SimulationResult simulate(const FrameSetup& frame, const PipelineConfiguration& configuration,
                           const SimulationOptions& options);
 

@@ -1,11 +1,11 @@
-// What the pipeline is built of, as far as time goes: units, queues and the cycles of each block.
+// Timing of the pipeline: arithmetic units, depths of queues, and the cycles of each block.
 #pragma once
 
 #include "model/fixed/setting.h"
 
 namespace phongpipe {
 
-// `count` identical pipelined units; a result is there `latency` cycles after its operands, and a
+// `count` identical pipelined units. A result is available `latency` cycles after its operands; a
 // unit takes new operands every `interval` cycles.
 struct Units {
   int count = 1;
@@ -14,7 +14,7 @@ struct Units {
 };
 
 struct PipelineConfiguration {
-  // setup_engine: one triangle at a time, on these.
+  // Units of setup_engine, which processes one triangle at a time.
   Units adders = {2, 2, 1};
   Units multipliers = {2, 3, 1};
   Units rsqrt = {1, 10, 2};
@@ -24,8 +24,8 @@ struct PipelineConfiguration {
   int walker_row_cycles = 1;       // from one span to the next
 
   int framebuffer_write_cycles = 1;  // a pixel that passes the depth test
-  int framebuffer_test_cycles = 1;   // one that fails it, or is not the one seen
-  int framebuffer_add_cycles = 1;    // one of a further light: read, added, written
+  int framebuffer_test_cycles = 1;   // a pixel that fails it, or is hidden in a later pass
+  int framebuffer_add_cycles = 1;    // a pixel of a further light: read, added, written
 
   // Depths of the queues before span_walker, pixel_datapath and framebuffer.
   int triangle_fifo = 4;

@@ -1,7 +1,8 @@
-// Time of single pixels between the entrance of pixel_datapath and the framebuffer, in closed form.
+// Time of each pixel between the entrance of pixel_datapath and the framebuffer, in closed form.
 //
 // A pixel enters in cycle `in`, leaves the datapath in `out`, and is read by the framebuffer in
-// `read`. The datapath holds as many pixels as its latency, the queue behind it `depth`:
+// `read`. It may enter from cycle `asked`, and occupies the framebuffer for `cost` cycles. The
+// datapath holds `latency` pixels, the queue behind it `depth` pixels:
 //   in(j)   = max(asked, in(j−1) + 1, out(j − latency))
 //   out(j)  = max(in(j) + latency, out(j−1) + 1, read(j − depth) + 1)
 //   read(j) = max(out(j) + 1, read(j−1) + cost(j−1))
@@ -21,11 +22,11 @@ class PixelTiming {
         out_(static_cast<std::size_t>(latency), -1),
         read_(static_cast<std::size_t>(depth), -1) {}
 
-  // The next `count` pixels, the first of which may enter from cycle `asked`. `cycles` holds what
-  // each takes the framebuffer, and is overwritten by the cycle each leaves in. Returns the cycle
-  // the first one enters in.
+  // Times the next `count` pixels, of which the first may enter from cycle `asked`. `cycles` is
+  // input and output: the cycles each pixel occupies the framebuffer, then the cycle in which it
+  // leaves the datapath. Returns the cycle in which the first pixel enters.
   Cycle next(Cycle asked, std::size_t count, Cycle* cycles) {
-    // What cycles[i] may alias, as far as the compiler can tell, is kept in locals meanwhile.
+    // Local copies, because for all the compiler knows cycles[i] may alias the members.
     Cycle in = in_, last_out = last_out_, free_from = free_from_, taken = 0;
     std::size_t slot = read_slot_, out_slot = out_slot_;
     Cycle* const reads = read_.data();
@@ -51,7 +52,7 @@ class PixelTiming {
     return taken;
   }
 
-  // The framebuffer's part alone: a pixel that left the datapath in cycle `out`.
+  // Times the framebuffer alone, for a pixel that left the datapath in cycle `out`.
   void read(Cycle out, Cycle cost) {
     const Cycle read = std::max(out + 1, free_from_);
     read_[read_slot_] = read;
@@ -68,8 +69,8 @@ class PixelTiming {
  private:
   Cycle in_ = -1, last_out_ = -1, free_from_ = 0;
   Cycle latency_;
-  std::vector<Cycle> out_;    // of the last pixels
-  std::size_t out_slot_ = 0;  // of the earliest of them
+  std::vector<Cycle> out_;    // of the last `latency` pixels
+  std::size_t out_slot_ = 0;  // of the earliest of these
   std::vector<Cycle> read_;
   std::size_t read_slot_ = 0;
 };

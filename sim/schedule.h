@@ -1,4 +1,4 @@
-// The setup engine's time: a recorded dataflow on a given number of units.
+// Time of the setup engine: a recorded dataflow, scheduled on a given number of units.
 #pragma once
 
 #include <deque>
@@ -9,14 +9,15 @@
 
 namespace phongpipe {
 
-// The operations of setup_triangle for a plan, recorded from the very template that computes them.
+// The operations of setup_triangle for a plan, recorded from the template that also computes the
+// values.
 Dataflow record_setup(const SeriesPlan& plan);
 
-// Cycles from the first operand to the last result under list scheduling: each cycle, of the
-// operations whose operands are there, those on the longest remaining path are started first.
+// Cycles from the first operand to the last result under list scheduling: in each cycle, of the
+// operations whose operands are available, those on the longest remaining path start first.
 int schedule_cycles(const Dataflow& dataflow, const PipelineConfiguration& units);
 
-// What each plan costs, scheduled when it is first met.
+// The cost of each plan, which is scheduled when it first occurs.
 class SetupTimes {
  public:
   explicit SetupTimes(const PipelineConfiguration& units) : units_(&units) {}
@@ -30,7 +31,7 @@ class SetupTimes {
 
  private:
   const PipelineConfiguration* units_;
-  std::deque<Cost> known_;  // a few; those given away stay where they are
+  std::deque<Cost> known_;  // few; a deque, because references to elements are handed out
 };
 
 }  // namespace phongpipe

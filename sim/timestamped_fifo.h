@@ -1,9 +1,9 @@
 // A bounded queue between modules that run ahead of the kernel's clock (temporal decoupling).
 //
-// Every item carries the cycle it was written in, and every slot the cycle it was read in, so that
-// the cycles come out as in a clocked queue: an item is seen from the cycle after its writing, a
-// slot can be used again from the cycle after its reading. Modules only wait for each other when
-// there is no item, or no slot, at all.
+// Every item carries the cycle in which it was written, and every slot the cycle in which it was
+// read. So the cycles are those of a clocked queue: an item is visible from the cycle after its
+// writing, and a slot is free from the cycle after its reading. Modules wait for each other only if
+// there is no item, or no slot.
 #pragma once
 
 #include <algorithm>
@@ -23,12 +23,13 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
         items_(static_cast<std::size_t>(depth)),
         times_(static_cast<std::size_t>(depth)) {}
 
-  // Waits for a slot; what is put there is written by write().
+  // Waits for a free slot; fill it, then call write().
   T& free_slot() {
     while (size_ == depth()) wait_for(read_event_, writer_waits_);
     return items_[free_];
   }
-  // Writes what is in the free slot, no earlier than `earliest`; returns the cycle of the writing.
+  // Writes the item in the free slot, in cycle `earliest` or later; returns the cycle of the
+  // writing.
   Cycle write(Cycle earliest) {
     Times& times = times_[free_];
     times.written_at = std::max(earliest, times.read_at + 1);
@@ -48,16 +49,16 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
     wake(written_event_, reader_waits_);
   }
 
-  // Waits for an item; false where there will be none.
+  // Waits for an item; false if none will come.
   bool wait_for_item() {
     while (size_ == 0 && !closed_) wait_for(written_event_, reader_waits_);
     return size_ > 0;
   }
-  // The front item stays where it is until another one is written to its slot, that is, as long as
-  // its reader does not wait.
+  // The reference stays valid after pop(), until another item is written to the slot, which cannot
+  // happen before the reader waits.
   const T& front() const { return items_[first_]; }
   Cycle front_seen_from() const { return times_[first_].written_at + 1; }
-  // How many items lie side by side in memory, the front one first.
+  // Number of items that are contiguous in memory, from the front one.
   std::size_t side_by_side() const { return std::min(size_, depth() - first_); }
 
   // Takes the front item in the given cycle.
@@ -76,7 +77,7 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
     waiting = true;
     wait(event);
   }
-  // A notification nobody waits for would cost the kernel as much as one that somebody does.
+  // Notifies a module only if it waits: the kernel spends as much time on needless notifications.
   static void wake(sc_core::sc_event& event, bool& waiting) {
     if (waiting) event.notify(sc_core::SC_ZERO_TIME);
     waiting = false;
@@ -86,7 +87,7 @@ class TimestampedFifo : public sc_core::sc_prim_channel {
 
   struct Times {
     Cycle written_at = -1;
-    Cycle read_at = -1;  // of the item before
+    Cycle read_at = -1;  // of the item that was in the slot before
   };
   std::vector<T> items_;
   std::vector<Times> times_;  // of the slots

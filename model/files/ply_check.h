@@ -1,4 +1,4 @@
-// Checks a PLY file, ASCII or binary: the mesh library accepts truncated ones, NaN and indices out
+// Checks a PLY file, ASCII or binary. The mesh library accepts truncated files, NaN and indices out
 // of range.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace phongpipe {
 
-// Throws InputError at the first thing that is wrong, with its line for an ASCII file.
+// Throws InputError at the first error, with its line for an ASCII file.
 void check_ply(const std::filesystem::path& file);
 
 }  // namespace phongpipe

@@ -8,7 +8,8 @@
 
 namespace phongpipe {
 
-// Checks them, also that their material is one of `materials`, and reads the files they name.
+// Checks the tables, also that each material is one of `materials`, and reads the files that they
+// name.
 std::vector<Object> read_objects(const TomlTable& root, const std::vector<Material>& materials,
                                  const Image& image);
 

@@ -8,7 +8,7 @@
 
 namespace phongpipe {
 
-// Far inside what doubles can square and multiply without overflow, so that no later result is
+// Ranges far below the overflow of squares and products in double, so that no later result is
 // infinite.
 inline constexpr NumberRange kCoordinate = {-kMaxCoordinate, kMaxCoordinate};
 inline constexpr NumberRange kSize = {1e-9, 1e9};

@@ -17,8 +17,8 @@ class LineReader {
  public:
   explicit LineReader(std::string_view text) : rest_(text) {}
   bool next(std::string_view& line);
-  unsigned number() const { return number_; }      // of the last line, from 1
-  std::string_view rest() const { return rest_; }  // what follows it
+  unsigned number() const { return number_; }      // of the line read last, from 1
+  std::string_view rest() const { return rest_; }  // the text after that line
 
  private:
   std::string_view rest_;
@@ -27,10 +27,10 @@ class LineReader {
 
 std::string_view trimmed(std::string_view text);
 std::vector<std::string_view> split(std::string_view line, char separator);
-// Between spaces and tabs, none of them empty.
+// The words between spaces and tabs; none is empty.
 std::vector<std::string_view> words(std::string_view line);
 
-// Empty when the whole of `word` is not a finite number.
+// Empty unless the whole of `word` is a finite number.
 std::optional<double> parse_number(std::string_view word);
 std::optional<long> parse_integer(std::string_view word);
 

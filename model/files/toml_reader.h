@@ -1,7 +1,7 @@
 // Checked reading of TOML: every mistake becomes an InputError that names file and line.
 //
-// Each getter registers its key. finish() then refuses the keys nobody asked for, so what a table
-// may contain is said once, by the code that reads it.
+// Each getter registers its key, and finish() refuses keys that are not registered. So only the
+// code that reads a table says which keys it may contain.
 #pragma once
 
 #include <array>
@@ -71,9 +71,9 @@ class TomlTable {
   // [key.NAME] in the order of the file; none when the key is absent
   std::vector<std::pair<std::string, TomlTable>> named_tables(std::string_view key) const;
 
-  // The key is known but does not belong here: fails with the reason when it is present.
+  // Fails with the reason if the key is present. For keys that are known but do not belong here.
   void refuse(std::string_view key, const std::string& reason) const;
-  // Unknown keys are errors. To be called when all of a table is read.
+  // Fails if the table has unregistered keys. Call it after reading the whole table.
   void finish() const;
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 

@@ -9,9 +9,9 @@
 
 namespace phongpipe {
 
-// The header must be x0,y0,z0,nx0,ny0,nz0,x1,…,nz2, with a row a triangle below it; blank lines are
-// skipped. x and y are snapped to the grid of 1/256 pixel and may lie up to kGuardBand pixels
-// beyond the image. Normals are made unit. The eye is at infinity and looks along +z, so that the
+// The header must be x0,y0,z0,nx0,ny0,nz0,x1,…,nz2; each row below it is a triangle, and blank
+// lines are skipped. x and y are snapped to the grid of 1/256 pixel and may lie up to kGuardBand
+// pixels beyond the image. Normals are made unit. The eye is at infinity and looks along +z, so the
 // vector to it is (0, 0, -1); a position is the pixel and z.
 std::vector<ScreenTriangle> read_triangle_csv(const std::filesystem::path& file,
                                               const Image& image);

@@ -15,7 +15,8 @@ inline bool is_lit(std::int64_t diffuse, std::int64_t level) {
   return diffuse > level;
 }
 
-// Cut to the fraction bits of the ROM words. Never negative, because level is not.
+// The diffuse value, at least `level`, truncated to sum_fraction_bits(). Never negative, because
+// level is not.
 inline std::int32_t clamped_diffuse(const DatapathConfiguration& configuration,
                                     std::int64_t diffuse, std::int64_t level) {
   return static_cast<std::int32_t>(
@@ -28,7 +29,7 @@ inline std::int32_t aligned_word(const DatapathConfiguration& configuration, std
   return word << std::max(0, kOutputBits - configuration.rom_data_bits);
 }
 
-// In output LSB, not yet saturated: depth cueing comes before.
+// In output LSB, not saturated, because depth cueing comes first.
 inline std::int32_t light_sum(const DatapathConfiguration& configuration, std::int32_t diffuse,
                               std::int32_t aligned) {
   return (diffuse + aligned) >> configuration.sum_fraction_bits();

@@ -1,5 +1,5 @@
-// Where the cone of a spotlight ends. What is outside is a span of its own, without the light's
-// series: the edge is as sharp as the exact shading's, and costs no pixel hardware.
+// The edge of a spotlight's cone. Pixels outside are separate spans without the light's series, so
+// the edge is as sharp as in exact shading and costs no pixel hardware.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,9 @@
 
 namespace phongpipe {
 
-// Splits the rows of a triangle into pieces inside and outside the cone of `light`, whose vector is
-// interpolated linearly as in exact Phong shading and looked at in pixel centres. A cone is convex:
-// where all corners are inside, all is, and a row has one lit piece at most.
+// Splits the rows of a triangle into pieces inside and outside the cone of `light`. The light
+// vector is interpolated linearly, as in exact Phong shading, and tested at pixel centres. A cone
+// is convex: a triangle with all corners inside is inside, and a row has at most one lit piece.
 void split_at_cone(const Light& light, const ScreenTriangle& triangle, std::vector<RowSpan>& rows);
 
 }  // namespace phongpipe

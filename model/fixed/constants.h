@@ -20,14 +20,14 @@ constexpr int kGuardBits = 1;
 constexpr int kCoordinateBits = 12;               // x and y, 0 … 4095
 constexpr int kLengthBits = kCoordinateBits + 1;  // pixels in a span, 1 … 4096
 
-// Clocks from the acceptance of a span to its first pixel at the output of pixel_datapath, and at
-// the same time the number of pixels the datapath holds; depth cueing takes a stage more.
+// Clocks from the acceptance of a span to its first pixel at the output of pixel_datapath; also the
+// number of pixels the datapath holds. Depth cueing adds a stage.
 constexpr int kDatapathLatency = 4;
 constexpr int kDepthCueLatency = 1;
 
 // The share of a pixel's own colour under depth cueing: a linear series
-// s(kCueIntegerBits).(kCueFraction) that is clamped to 0 … 1 and cut to kCueFactorBits before it is
-// multiplied with.
+// s(kCueIntegerBits).(kCueFraction), clamped to 0 … 1 and truncated to kCueFactorBits before the
+// multiplication.
 constexpr int kCueIntegerBits = 11;
 constexpr int kCueFraction = 20;
 constexpr int kCueFactorBits = 10;

@@ -10,10 +10,11 @@
 namespace phongpipe {
 
 // The non-empty rows of a triangle inside the image, from the top down; `rows` is overwritten. A
-// pixel is covered when its centre is inside, or on a top or left edge. Either orientation.
+// pixel is covered if its centre is inside, or on a top or left edge. The triangle may turn either
+// way.
 void cover(const ScreenTriangle& triangle, int width, int height, std::vector<RowSpan>& rows);
 
-// In pixels; `rows` is not empty.
+// Length of the longest row in pixels; `rows` is not empty.
 int longest_row(const std::vector<RowSpan>& rows);
 
 // The covered pixel whose centre is nearest to the triangle's centroid; `rows` is not empty.

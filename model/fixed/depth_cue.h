@@ -1,4 +1,4 @@
-// depth_cue: moves a pixel towards the colour of depth cueing.
+// depth_cue: moves a pixel towards the cue colour.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ inline std::int32_t cue_factor(std::int64_t v) {
 }
 
 // cue + (sum − cue)·factor, rounded to nearest and saturated. `sum` is in output LSB, rounded, not
-// negative and not yet saturated, so that an overexposed pixel fades as it should.
+// negative and not yet saturated, so that overexposed pixels fade correctly.
 inline std::uint8_t depth_cue(std::int32_t sum, std::int32_t cue, std::int32_t factor) {
   constexpr std::int32_t kHalf = 1 << (kCueFactorBits - 1);
   const std::int32_t moved = cue + (((sum - cue) * factor + kHalf) >> kCueFactorBits);

@@ -24,7 +24,7 @@ class ExponentRom {
   static double entry_x(const DatapathConfiguration& configuration, int address);
 
   // Largest |x^n − entry| for x in [0, 1], both as fractions of full scale, without the rounding of
-  // words: n/(2N) for nearest, n/N for truncated indices, to first order.
+  // words. To first order, with N words: n/(2N) for nearest, n/N for truncated indices.
   static double largest_error(const DatapathConfiguration& configuration, double shininess);
 
  private:

@@ -1,4 +1,4 @@
-// Two's complement of run-time width, held in 64 bits.
+// Two's-complement numbers of run-time width, held in 64 bits.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace phongpipe {
 
-// Addition and multiplication modulo 2^64: registers wrap, and wrapping is defined for unsigned
-// only.
+// Addition and multiplication modulo 2^64, as registers wrap. C++ defines wrapping for unsigned
+// types only.
 inline std::int64_t wrap_add(std::int64_t a, std::int64_t b) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
 }
@@ -26,8 +26,8 @@ inline bool fits(std::int64_t value, int width) {
   return wrap_to(value, width) == value;
 }
 
-// Nearest multiple of 2^−fraction_bits, ties away from zero. Sets `overflow` (and returns 0) where
-// 63 bits do not hold it, or it is not a number.
+// Nearest multiple of 2^−fraction_bits, ties away from zero. Sets `overflow` and returns 0 if the
+// result does not fit in 63 bits or is NaN.
 inline std::int64_t to_fixed(double value, int fraction_bits, bool& overflow) {
   const double scaled = std::round(std::ldexp(value, fraction_bits));
   if (!(std::fabs(scaled) < 0x1p62)) {

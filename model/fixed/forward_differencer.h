@@ -23,7 +23,7 @@ struct FixedQuadratic {
   }
 };
 
-// c + a x + b y, the same way.
+// c + a x + b y, with x and y as in FixedQuadratic.
 struct FixedLinear {
   std::int64_t c = 0, a = 0, b = 0;
 
@@ -32,10 +32,10 @@ struct FixedLinear {
   }
 };
 
-// What the datapath's registers are loaded with at the start of a span.
+// Values that the datapath's registers are loaded with at the start of a span.
 struct SeriesStart {
   std::int64_t v = 0;   // value at the first pixel
-  std::int64_t d1 = 0;  // to the next pixel
+  std::int64_t d1 = 0;  // difference to the next pixel
   std::int64_t d2 = 0;  // difference of the differences, 2 T5
 };
 

@@ -1,5 +1,5 @@
-// What is computed once a frame, before the first triangle: which effects there are, and for each
-// material under each light its scales, ambient level and table of the highlight.
+// Values computed once per frame, before the first triangle: the effects in use and, for each
+// material under each light, its scales, ambient level and highlight table.
 #pragma once
 
 #include <array>
@@ -13,11 +13,12 @@
 
 namespace phongpipe {
 
-// What is simulated: the effects the scene calls for, triangle by triangle, or everything there is,
-// with coefficients of 0 where the scene has no such effect. The pictures are the same to the bit.
+// Which effects are simulated. `derived`: those that the scene uses, decided for each triangle.
+// `all`: every effect, with coefficients of 0 if the scene does not use it. The pictures are the
+// same to the bit.
 enum class Effects { derived, all };
 
-// What exponent_rom holds: a ROM a channel, all at the same address.
+// Contents of exponent_rom: one ROM per channel, all read at the same address.
 struct HighlightTable {
   Color specular;  // highlight colour, light and largest attenuation included
   double shininess = 0;
@@ -29,8 +30,8 @@ struct MaterialSetup {
   SeriesPlan plan;
   LightInput<double> light;  // scales: output LSB for diffuse and gate, addresses for specular
   std::array<std::int64_t, 3> level;  // ambient plus the rounding half, in the diffuse format
-  std::uint32_t table = 0;            // in FrameSetup::tables
-  // The first address of the table at which some word is not 0; the number of words if none is.
+  std::uint32_t table = 0;            // index into FrameSetup::tables
+  // The first address of the table at which some word is not 0; the number of words if all are 0.
   int first_visible_address = 0;
 };
 
@@ -41,8 +42,8 @@ struct FrameSetup {
   // Every light is a pass over all triangles: the first writes, the others add.
   std::uint32_t passes = 1;
   std::vector<MaterialSetup> materials;  // those of the geometry for each pass, pass by pass
-  std::vector<HighlightTable> tables;    // each once
-  bool depth_test = true;                // some pixel is covered twice
+  std::vector<HighlightTable> tables;    // without duplicates
+  bool depth_test = true;                // if some pixel is covered twice, or with Effects::all
   // Depth z is stored as (z − depth_offset) · depth_scale, from 0 to 2^depth_bits − 1.
   double depth_offset = 0, depth_scale = 0;
   OutputColor cue_color = {};
@@ -50,9 +51,9 @@ struct FrameSetup {
   const Scene* scene = nullptr;  // both must outlive the setup
   const Geometry* geometry = nullptr;
 
-  // Throws InputError where the scene asks for what the pipeline does not simulate, or the
-  // configuration is out of range. The blocks of `configuration` must be those that the scene calls
-  // for, see derive_blocks.
+  // Throws InputError if the scene uses what the pipeline does not simulate, or the configuration
+  // is out of range. The blocks of `configuration` must be those that the scene requires, see
+  // derive_blocks.
   FrameSetup(const Scene& scene, const Geometry& geometry, const FrameConfiguration& configuration,
              Effects effects = Effects::derived);
 
@@ -61,7 +62,7 @@ struct FrameSetup {
   }
 
  private:
-  // `largest_attenuation`: what attenuation is relative to.
+  // `largest_attenuation`: the reference for attenuation.
   MaterialSetup set_up_material(std::uint32_t pass, const Material& material,
                                 double largest_attenuation);
   std::uint32_t table_of(const Color& specular, double shininess);
@@ -69,12 +70,11 @@ struct FrameSetup {
   std::uint32_t materials_of_a_pass = 0;
 };
 
-// Whether every colour of the scene is grey, so that one channel does.
+// Whether every colour of the scene is grey, so that one channel is enough.
 bool is_grey(const Scene& scene, const Geometry& geometry);
 
-// The blocks that the scene's effects call for, or all of them. The gate's source is a series of
-// its own where a material has a highlight and no diffuse colour; a gate that is chosen to be off
-// stays off.
+// The blocks that the scene's effects require, or all blocks. The gate's source is a separate
+// series if a material has a highlight and no diffuse colour; a gate chosen to be off stays off.
 EffectBlocks derive_blocks(const FixedPointFormats& formats, const Scene& scene,
                            const Geometry& geometry, Effects effects = Effects::derived);
 

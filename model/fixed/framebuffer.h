@@ -1,6 +1,6 @@
-// framebuffer: depth test, write, and the addition of further lights. The nearer pixel wins, the
-// earlier one where depths are equal. Further lights are added where the triangle that won comes
-// again, so that two surfaces at the same depth are not both added.
+// framebuffer: depth test, write, and addition of further lights. The nearer pixel wins; at equal
+// depths, the earlier one. A further light is added only to pixels of the triangle that won, so
+// that two surfaces at the same depth are not both added.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace phongpipe {
 
 class Framebuffer {
  public:
-  // Without `owners` it keeps them only where further lights need to know them: where depths are
-  // tested at all.
+  // The owner of a pixel is the triangle that won. `where_needed`: owners are kept only for a frame
+  // with depth test and several lights.
   enum class Owners { where_needed, kept };
   explicit Framebuffer(const FrameSetup& frame, Owners owners = Owners::where_needed);
 
@@ -27,7 +27,7 @@ class Framebuffer {
     return static_cast<std::uint32_t>(std::clamp<std::int64_t>(depth, 0, farthest));
   }
 
-  // Pixel (x, y), inside the image, of a span of `triangle`. True where it was written or added.
+  // Writes or adds pixel (x, y), inside the image, of a span of `triangle`. False if it is hidden.
   bool write(int x, int y, std::uint32_t depth, std::uint32_t triangle, std::uint32_t color) {
     const std::size_t at = address(x, y);
     Cell& cell = cells_[at];
@@ -44,19 +44,19 @@ class Framebuffer {
     return true;
   }
 
-  // Has the pixels of a row on their way to the cache when they are asked for.
+  // Prefetches the pixels of a row into the cache.
   void prefetch(const RowSpan& row) const {
     __builtin_prefetch(&cells_[address(row.x, row.y)]);
     __builtin_prefetch(&cells_[address(row.x + row.length - 1, row.y)]);
   }
 
-  // The one or the other, as the pass of the span has it.
+  // write() in the first pass, else add().
   bool take(bool first_pass, int x, int y, std::uint32_t depth, std::uint32_t triangle,
             std::uint32_t color) {
     return first_pass ? write(x, y, depth, triangle, color) : add(x, y, triangle, color);
   }
 
-  // All pixels of a span inside the image; `taken` tells of each what take() would.
+  // take() for all pixels of a span inside the image; `taken` receives the results.
   void take_span(const FrameSetup& frame, const Span& span, const std::uint32_t* colors,
                  std::uint8_t* taken) {
     for (int i = 0; i < span.row.length; ++i) {
@@ -65,7 +65,7 @@ class Framebuffer {
     }
   }
 
-  // Of the image's pixels, row by row from the top.
+  // Number of pixels of the image. Indices count row by row from the top.
   std::size_t size() const {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   }
@@ -81,19 +81,19 @@ class Framebuffer {
     }
   }
   bool covered(std::size_t index) const { return cells_[address(index)].nearness != 0; }
-  // Whether the triangle's pixel is the one seen; where owners are kept.
+  // Whether the triangle is the owner of the pixel. Owners must be kept.
   bool owned(std::size_t index, std::uint32_t triangle) const {
     return owners_[address(index)] == triangle + 1;
   }
-  // Channel 0 in the low byte; the background's where nothing is covered.
+  // Channel 0 in the low byte; the background if the pixel is not covered.
   std::uint32_t color(std::size_t index) const {
     const Cell& cell = cells_[address(index)];
     return cell.nearness != 0 ? cell.color : background_;
   }
 
  private:
-  // All zero where nothing was written: calloc gives that without touching memory, most of which a
-  // frame leaves alone. Depths are of 30 bits at most, so that ~depth is never 0.
+  // All zero where nothing was written: calloc does that without touching the memory, most of which
+  // a frame may never use. Depths have at most 30 bits, so ~depth is never 0.
   struct Cell {
     std::uint32_t nearness;
     std::uint32_t color;

@@ -17,7 +17,7 @@ struct TriangleWork {
 
 enum class SetupOutcome {
   nothing,   // no pixel is covered, or the pass's light does not reach the material: no time spent
-  left_out,  // set up as far as `work.setup.plan` goes, and found to add nothing
+  left_out,  // set up according to `work.setup.plan`, but adds nothing to the picture
   ready
 };
 
@@ -58,7 +58,7 @@ class FrontEnd {
   SpanWalker span_walker_;
 };
 
-// Pass by pass, the triangles in the order of the scene.
+// Visits all triangles in the order of the scene, pass by pass.
 class TriangleOrder {
  public:
   explicit TriangleOrder(const FrontEnd& front_end)

@@ -1,4 +1,4 @@
-// A whole frame by the bit-accurate model, which says what every pixel must be.
+// A whole frame by the bit-accurate model: the reference for every pixel.
 #pragma once
 
 #include <functional>
@@ -10,10 +10,10 @@
 
 namespace phongpipe {
 
-// What became of the triangles of a frame.
+// Counts of a frame's triangles by outcome.
 struct TriangleCounts {
-  std::size_t set_up = 0;     // that cover a pixel, once for every light that reaches them
-  std::size_t left_out = 0;   // of them, found to add nothing to their pixels
+  std::size_t set_up = 0;     // that cover a pixel, once per light that reaches them
+  std::size_t left_out = 0;   // of these, that add nothing to their pixels
   std::size_t overflows = 0;  // with a coefficient or value beyond its register
 };
 
@@ -23,10 +23,10 @@ class SpanStream {
  public:
   explicit SpanStream(const FrameSetup& frame, Evaluation evaluation = best_evaluation());
 
-  // Goes on to the next span; false where there is none.
+  // Advances to the next span; false at the end.
   bool next();
   const Span& span() const { return spans_[current_]; }
-  // Of each pixel of the span.
+  // The colour of each pixel of the span.
   const std::uint32_t* colors() const { return colors_.data() + first_color_; }
   const TriangleCounts& triangles() const { return triangles_; }
 
@@ -56,7 +56,7 @@ struct ModelFrame {
   std::vector<std::uint32_t> colors() const;
 };
 
-// `observe` is told of each span with the colours of its pixels.
+// Called for each span with the colours of its pixels.
 using ObserveSpan = std::function<void(const Span& span, const std::uint32_t* colors)>;
 ModelFrame run_model(const FrameSetup& frame, const ObserveSpan& observe = {},
                      Evaluation evaluation = best_evaluation());

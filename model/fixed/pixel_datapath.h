@@ -1,4 +1,5 @@
-// pixel_datapath: forward_differencer × series, exponent_rom and color_sum, many spans at a time.
+// pixel_datapath: one forward_differencer per series, exponent_rom and color_sum, for many spans at
+// a time.
 #pragma once
 
 #include <cstdint>
@@ -22,18 +23,18 @@ struct LaneInputs;
 
 class PixelDatapath {
  public:
-  // `cue_color`: what depth cueing fades to. Throws InputError where the configuration is out of
+  // `cue_color`: the colour of depth cueing. Throws InputError if the configuration is out of
   // range.
   explicit PixelDatapath(const DatapathConfiguration& configuration,
                          Evaluation evaluation = best_evaluation(),
                          const OutputColor& cue_color = {});
 
-  // Needed before the first span that has a highlight.
+  // Must be called before the first span that has a highlight.
   void load_table(const HighlightTable& table);
 
-  // Colours of the spans' pixels, back to back, channel 0 in the low byte. `colors` must have room
-  // for the last span's length rounded up to a multiple of kLanes; what lies behind its length is
-  // overwritten with rubbish.
+  // Writes the colours of the spans' pixels, back to back, channel 0 in the low byte. `colors` must
+  // have room for the last span's length rounded up to a multiple of kLanes; words beyond its
+  // length are overwritten with arbitrary values.
   static constexpr int kLanes = 8;
   static std::size_t padded(int length) {
     return (static_cast<std::size_t>(length) + kLanes - 1) / kLanes * kLanes;
@@ -49,7 +50,7 @@ class PixelDatapath {
   Evaluation evaluation_;
   OutputColor cue_color_;
   ShadeFunction shade_lanes_;
-  // Words aligned to the fraction of color_sum, as it adds them.
+  // ROM words as color_sum adds them (see aligned_word).
   std::array<std::vector<std::int32_t>, 3> aligned_rom_;
   std::array<const std::int32_t*, 3> rom_ = {};
 };

@@ -1,8 +1,9 @@
-// The closed form of the pixel loop, kLanes pixels at a time; bit for bit the values of stepping.
+// The closed form of the pixel loop, kLanes pixels at a time. Values equal those of stepping to the
+// bit.
 //
-// Registers are left-aligned in Word, so that its overflow is theirs; it wraps, as the compiler is
-// told to make of it (-fwrapv). One source, compiled for each
-// instruction set by the functions that inline it (pixel_datapath.cpp).
+// Registers are left-aligned in Word, so that both overflow together; signed overflow wraps
+// (-fwrapv). This source is compiled once per instruction set, by the functions that inline it
+// (pixel_datapath.cpp).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace phongpipe {
 template <typename Word, int kLanes>
 using Lanes __attribute__((vector_size(kLanes * sizeof(Word)))) = Word;
 
-// v, and what takes it to the same lane of the next kLanes pixels.
+// v, and its differences to the same lane of the next kLanes pixels.
 template <typename Word, int kLanes>
 struct LaneSeries {
   using Vector = Lanes<Word, kLanes>;
@@ -47,7 +48,7 @@ struct LaneSeries {
   }
 };
 
-// What all spans have in common. Shifts are in bits.
+// Values common to all spans. Shifts are in bits.
 template <typename Word>
 struct LaneFormat {
   explicit LaneFormat(const DatapathConfiguration& configuration)
@@ -63,7 +64,7 @@ struct LaneFormat {
   static constexpr int kUnusedCue = kBits - kCueWidth;
   static constexpr int kFactorShift = kBits - 1 - kCueIntegerBits - kCueFactorBits;
   bool depth_cue;
-  int unused_diffuse, unused_specular;  // beyond the registers' widths
+  int unused_diffuse, unused_specular;  // bits of a word beyond the registers' widths
   int sum_fraction, diffuse_shift, address_shift;
   Word last_address;
 };
@@ -173,7 +174,8 @@ inline __attribute__((always_inline)) void shade_span(const LaneFormat<Word>& fo
   }
 }
 
-// Gather: lanes of words[address]. kSpecular: whether spans may have a highlight.
+// Shades spans. Gather::read() reads words[address] of each lane. kSpecular: whether spans may have
+// a highlight.
 template <typename Word, int kLanes, int kChannels, bool kSpecular, GateSource kGate,
           typename Gather>
 inline __attribute__((always_inline)) void shade_lanes(const LaneInputs& inputs, const Span* spans,

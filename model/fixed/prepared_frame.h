@@ -1,5 +1,4 @@
-// The way of a scene to the hardware, in one step: geometry, subdivision, blocks, setup of the
-// frame.
+// Prepares a scene for the hardware in one step: geometry, subdivision, blocks, setup of the frame.
 #pragma once
 
 #include <memory>
@@ -18,14 +17,14 @@ struct PreparedScene {
       : scene(std::move(scene_)), geometry(make_geometry(scene)) {}
 };
 
-// All that is known of a frame before its first triangle is set up. `setup` refers to
-// the other members, so that a frame stays where it was made.
+// All data of a frame before its first triangle is set up. `setup` refers to the other members, so
+// the object cannot be moved.
 struct PreparedFrame {
   std::shared_ptr<const PreparedScene> prepared;
-  Subdivision subdivision;  // of the scene's triangles, as the policy has it
+  Subdivision subdivision;  // of the scene's triangles, by the policy
   FrameSetup setup;
 
-  // Throws InputError where the scene asks for what the pipeline does not simulate.
+  // Throws InputError if the scene uses what the pipeline does not simulate.
   PreparedFrame(std::shared_ptr<const PreparedScene> prepared_, const FixedPointFormats& formats,
                 const SetupPolicy& policy, Effects effects = Effects::derived)
       : prepared(std::move(prepared_)),

@@ -1,4 +1,4 @@
-// How far the values of a series can be from those of the unrounded coefficients.
+// Bound of the rounding error of a series.
 #pragma once
 
 #include <cmath>
@@ -7,10 +7,11 @@
 
 namespace phongpipe {
 
-// In the series' units, whose registers have `fraction_bits`: over pixels up to `extent` from the
-// expansion point along x and along y, in spans of up to `length`. Six coefficients off by half a
-// unit of setup each, then with Anchor::span three numbers of a span's start off by half a unit of
-// the registers.
+// Largest difference from the series with unrounded coefficients, in the series' units.
+// `fraction_bits`: of the registers. `extent`: largest distance from the expansion point along x
+// and along y, in pixels. `length`: largest length of a span, in pixels. Each of the six
+// coefficients is off by half a unit of setup, and with Anchor::span each of the three numbers at a
+// span's start by half a unit of the registers.
 inline double rounding_bound(const FixedPointFormats& formats, int fraction_bits, double extent,
                              int length) {
   const int setup_bits = setup_fraction_bits(formats, fraction_bits);

@@ -1,5 +1,5 @@
-// One setting of the hardware. Its description is the only place that lists it: files, --set,
-// --help, range checks, hashes, reports and the RTL's parameters are made from it.
+// One setting of the hardware. It is described once; files, --set, --help, range checks, hashes,
+// reports and the RTL's parameters are made from the description.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,7 +13,7 @@
 
 namespace phongpipe {
 
-// Of a `Record` that holds the setting's value, a number or the place of a choice in its list.
+// A setting of `Record`, which holds the value: a number, or the index of a choice.
 template <typename Record>
 struct Setting {
   std::string_view section, key;  // key = … under [section] of a hardware file
@@ -26,7 +26,7 @@ struct Setting {
   std::function<void(Record&, int)> put;
 
   std::string name() const { return fmt::format("{}.{}", section, key); }
-  // As files and --set write it.
+  // The value as text, as in files and --set.
   std::string value(const Record& record) const { return text(get(record)); }
   std::string text(int value) const {
     return choices.empty() ? fmt::format("{}", value)
@@ -39,7 +39,7 @@ struct Setting {
     throw InputError(
         fmt::format("{} = {} is out of range: {} to {} {}", name(), value, low, high, unit));
   }
-  // The same setting of a record that has `part` as a member.
+  // The same setting for a record that has `part` as a member.
   template <typename Whole>
   Setting<Whole> of(Record Whole::*part) const {
     return {section,

@@ -1,4 +1,4 @@
-// What travels from the span walker to the pixel datapath and the framebuffer.
+// Data passed from the span walker to the pixel datapath and the framebuffer.
 #pragma once
 
 #include <array>
@@ -17,17 +17,18 @@ struct RowSpan {
 
 struct Span {
   RowSpan row;
-  std::uint32_t triangle = 0;  // its place in Geometry::triangles
-  std::uint32_t table = 0;     // of the highlight, its place in FrameSetup::tables
-  bool first_pass = true;      // of the first light: writes; those of further lights add
-  // What the datapath is spared: series that stay as they start, and a highlight of words 0.
+  std::uint32_t triangle = 0;  // index into Geometry::triangles
+  std::uint32_t table = 0;     // index into FrameSetup::tables, for the highlight
+  bool first_pass = true;      // first light: written; further lights: added
+  // False where the datapath can save work: on series that keep their first value, and on a
+  // highlight whose words are all 0.
   bool step_diffuse = true, step_specular = true;
   bool highlight = true;
-  std::array<std::int64_t, 3> level = {};  // ambient light and the rounding half, as MaterialSetup
+  std::array<std::int64_t, 3> level = {};  // ambient plus the rounding half, as in MaterialSetup
   SeriesStart specular;
-  std::array<SeriesStart, 3> diffuse;      // those of the channels in use
-  SeriesStart gate;                        // where it has a series of its own
-  SeriesStart cue;                         // where there is depth cueing
+  std::array<SeriesStart, 3> diffuse;      // of the channels in use
+  SeriesStart gate;                        // if it is a separate series
+  SeriesStart cue;                         // with depth cueing
   std::int64_t depth = 0, depth_step = 0;  // kDepthFraction bits below one step of depth
 };
 

@@ -1,4 +1,5 @@
-// span_walker: from a triangle's coefficients to the starts of its spans, one a covered row.
+// span_walker: computes the start of each span, one per covered row, from a triangle's
+// coefficients.
 #pragma once
 
 #include "model/fixed/coverage.h"
@@ -19,8 +20,8 @@ class SpanWalker {
     return span;
   }
 
-  // False where the value of some pixel of the row does not fit its register, so that the datapath
-  // would wrap to a wrong colour.
+  // Whether the values of all pixels of the row fit their registers. If not, the datapath wraps to
+  // a wrong colour.
   bool fits(const TriangleSetup& setup, const RowSpan& row) const;
 
  private:
@@ -28,7 +29,7 @@ class SpanWalker {
   bool series_fits(const FixedQuadratic& t, int x, int y, int length, double limit) const;
 
   FrameConfiguration configuration_;
-  int dropped_bits_;                                   // between setup and datapath
+  int dropped_bits_;                                   // fraction bits, between setup and datapath
   double diffuse_limit_, specular_limit_, cue_limit_;  // largest values of the registers
 };
 

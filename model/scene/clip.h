@@ -9,7 +9,7 @@
 
 namespace phongpipe {
 
-// A vertex between the camera and the screen: its pixel is (x/w, y/w). An orthographic camera has
+// A vertex in homogeneous pixel coordinates: its pixel is (x/w, y/w). An orthographic camera has
 // w = 1 everywhere.
 struct ClipVertex {
   double x = 0;
@@ -22,7 +22,7 @@ struct ClipVertex {
 
 using ClipTriangle = std::array<ClipVertex, 3>;
 
-// What may be seen: depth ≥ near, and pixels from the left top corner to (width, height), widened
+// The visible region: depth ≥ near, and pixels from the top left corner to (width, height), widened
 // by `margin` pixels on all sides.
 struct ViewVolume {
   double near = 0;
@@ -31,13 +31,14 @@ struct ViewVolume {
   double margin = 0;
 };
 
-// All three vertices are beyond the same plane, so that nothing of the triangle is inside.
+// Whether all three vertices are outside the same plane; no part of the triangle is inside then.
 bool wholly_outside(const ClipTriangle& triangle, const ViewVolume& volume);
 bool wholly_inside(const ClipTriangle& triangle, const ViewVolume& volume);
 
-// The convex polygon left of the triangle, in its order; fewer than 3 vertices where nothing is.
-// Positions and normals are interpolated linearly, so normals there are not unit any more. An edge
-// shared by two triangles is cut at the same point in both.
+// The part of the triangle inside the volume: a convex polygon in the triangle's vertex order, or
+// fewer than 3 vertices if nothing is inside. Positions and normals are interpolated linearly, so
+// normals of new vertices are not unit. An edge shared by two triangles is cut at the same point in
+// both.
 std::vector<ClipVertex> clip(const ClipTriangle& triangle, const ViewVolume& volume);
 
 }  // namespace phongpipe

@@ -11,13 +11,13 @@
 namespace phongpipe {
 
 constexpr int kGridBits = 8;  // vertices sit on a grid of 1/256 pixel
-// Coordinates are kept so many bits finer that middles of edges are exact, level below level.
+// Extra bits of coordinates, one per level of subdivision, so that midpoints of edges are exact.
 constexpr int kSubdivisionLevels = 3;
-constexpr int kSubpixels = 1 << (kGridBits + kSubdivisionLevels);  // to a pixel
+constexpr int kSubpixels = 1 << (kGridBits + kSubdivisionLevels);  // per pixel
 inline double in_pixels(std::int32_t subpixels) {
   return subpixels / static_cast<double>(kSubpixels);
 }
-constexpr int kGuardBand = 8192;  // pixels beyond the image a vertex may lie
+constexpr int kGuardBand = 8192;  // largest distance of a vertex from the image, in pixels
 
 struct ScreenVertex {
   std::int32_t x = 0;  // subpixels from the left edge of the image; pixel centres at .5 pixel
@@ -30,8 +30,8 @@ struct ScreenVertex {
   Vec3 position = Vec3::Zero();  // the surface point, same axes
 };
 
-// A triangle of a mesh turns counter-clockwise on the screen, so that its signed area is negative;
-// one of a CSV file turns either way, in the order of the file.
+// Triangles of a mesh turn counter-clockwise on the screen, so their signed area is negative.
+// Triangles of a CSV file turn either way; their vertices stay in the order of the file.
 struct ScreenTriangle {
   std::array<ScreenVertex, 3> vertices;
   std::uint32_t material = 0;  // index into Geometry::materials
@@ -47,18 +47,18 @@ struct Geometry {
   std::size_t culled_outside = 0;  // wholly outside the view
   std::size_t clipped = 0;         // kept, but cut by the near plane or the guard band
   std::size_t degenerate = 0;      // zero area after snapping
-  std::vector<std::string> notes;  // what a user should know, such as missing normals generated
+  std::vector<std::string> notes;  // messages for the user, such as missing normals generated
 };
 
-// To the nearest 1/256 pixel, halves upwards, so that shifting by whole pixels changes nothing. In
-// subpixels.
+// Rounds to the nearest 1/256 pixel, ties up, so that a shift by whole pixels does not change the
+// rounding. Returns subpixels.
 std::int32_t snap(double pixels);
 
 // Twice the area in square subpixels, negative where the vertices turn counter-clockwise on the
 // screen.
 std::int64_t signed_area(const ScreenTriangle& triangle);
 
-// Makes the primitives' meshes, and projects all meshes.
+// Builds the meshes of primitives, and projects all meshes.
 Geometry make_geometry(const Scene& scene);
 
 // Unit vector from the surface to an eye at infinity: against the camera's view, or against z in a
@@ -69,8 +69,8 @@ Vec3 infinite_eye(const Scene& scene);
 // for directional ones.
 Vec3 light_vector(const Light& light, const ScreenVertex& vertex);
 
-// How far the surface is from the eye along the view, as depth cueing sees it: world units, or z in
-// a scene of screen-space triangles.
+// Distance of the surface from the eye along the view, for depth cueing: in world units, or z in a
+// scene of screen-space triangles.
 double view_distance(const Scene& scene, const ScreenVertex& vertex);
 
 }  // namespace phongpipe

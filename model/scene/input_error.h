@@ -1,4 +1,4 @@
-// Bad input, told in one line: where it is, what is wrong and what would be right.
+// Error in the input, described in one line: the place, what is wrong and what would be right.
 #pragma once
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Triangles in three dimensions: what mesh files and primitives are turned into.
+// Triangle mesh in three dimensions, read from a file or made from a primitive.
 #pragma once
 
 #include <array>
@@ -20,18 +20,18 @@ struct Mesh {
   std::vector<Vec3> normals;  // unit, one for each position
   std::vector<MeshFace> faces;
   std::vector<Material> materials;  // empty: the mesh names none
-  std::vector<std::string> notes;   // what a user should know
+  std::vector<std::string> notes;   // messages for the user
 };
 
-// Positions beyond this are refused, so that no later product overflows.
+// Largest coordinate accepted, by magnitude, so that no later product overflows.
 constexpr double kMaxCoordinate = 1e9;
 
-// Twice the area of a face, along its geometric normal.
+// Vector along the geometric normal of a face; its length is twice the area of the face.
 Vec3 face_area_vector(const Mesh& mesh, const MeshFace& face);
 
-// Replaces the normals: at each position the area-weighted mean over the faces that meet there,
-// also across vertices listed twice. Faces without area are dropped; a corner whose mean vanishes,
-// as where two sides of a sheet meet, gets the normal of its own face.
+// Replaces each normal by the area-weighted mean of the normals of all faces that meet at its
+// position, across duplicate vertices too. Removes faces of zero area. Where the mean vanishes,
+// such as where two sides of a sheet meet, a corner gets the normal of its own face.
 void generate_smooth_normals(Mesh& mesh);
 
 }  // namespace phongpipe

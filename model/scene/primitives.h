@@ -16,7 +16,7 @@ struct Primitive {
   const char* name;
   Segments default_segments;
   Segments min_segments;
-  std::size_t (*triangles)(Segments);  // how many make() emits; none of them has zero area
+  std::size_t (*triangles)(Segments);  // number that make() emits; none has zero area
   Mesh (*make)(Segments);
 };
 
@@ -24,11 +24,10 @@ struct Primitive {
 // torus   around the y axis, radii 1 and 0.4
 // plane   2 by 2 about the origin, facing +y; segments along x and z
 // pawn    a chess pawn 2 high, standing on y = 0; by default 14,620 triangles, as many as the
-//         paper's frame. It ends in rings too small to see, not in poles, so that each of the
-//         around × along quads gives two triangles; the base is open.
+//         paper's frame. It ends in rings too small to see instead of poles, so each of the
+//         around × along quads gives two triangles. The base is open.
 // teapot  Newell's, in his units: 3.15 high, standing on y = 0, the spout towards +x; segments
-// count
-//         within each of its 32 patches
+//         are counted within each of its 32 patches
 const std::vector<Primitive>& primitives();
 
 // Null when there is no primitive of that name.

@@ -1,4 +1,4 @@
-// From world coordinates to homogeneous pixels.
+// Projection from world coordinates to homogeneous pixel coordinates.
 #pragma once
 
 #include "model/scene/clip.h"
@@ -17,8 +17,8 @@ class ScreenProjection {
   double near() const { return near_; }
   ClipVertex to_clip(const Vec3& position, const Vec3& normal) const;
 
-  // Divides by w and snaps. z is 1 - near/w in perspective, 0 at the near plane and 1 at infinity,
-  // else the distance from the eye along the view: both are linear in screen space.
+  // Divides by w and snaps. z is linear in screen space: 1 - near/w in perspective (0 at the near
+  // plane, 1 at infinity), else the distance from the eye along the view.
   ScreenVertex to_screen(const ClipVertex& vertex) const;
 
  private:

@@ -16,7 +16,7 @@ namespace phongpipe {
 using Vec3 = Eigen::Vector3d;
 using Color = Eigen::Array3d;  // linear red, green, blue; 1 is 255 LSB of the output
 
-constexpr int kMaxImageSize = 4096;  // pixels on a side: what a 12-bit coordinate counts
+constexpr int kMaxImageSize = 4096;  // pixels on a side, the range of a 12-bit coordinate
 
 struct Image {
   int width = 512;
@@ -34,7 +34,7 @@ struct Camera {
   double vertical_extent = 2;        // orthographic: world units from the top to the bottom edge
 };
 
-enum class Viewer { infinite, local };         // eye along target → eye, or at its true distance
+enum class Viewer { infinite, local };         // eye at infinity, or at Camera::eye
 enum class Highlight { halfway, reflection };  // N·H or R·V
 struct Shading {
   Viewer viewer = Viewer::infinite;
@@ -45,7 +45,7 @@ struct Shading {
 enum class LightType { directional, point, spot };
 struct Light {
   LightType type = LightType::directional;
-  Vec3 direction = Vec3(0, 0, -1);  // the way the light travels, unit; directional and spot
+  Vec3 direction = Vec3(0, 0, -1);  // in which the light travels, unit; directional and spot
   Vec3 position = Vec3::Zero();     // point and spot
   Color color = Color::Ones();
   std::array<double, 3> attenuation = {1, 0, 0};  // c, l, q of 1/(c + l d + q d²); point and spot
@@ -53,7 +53,7 @@ struct Light {
   double spot_cutoff_degrees = 90;
 };
 
-// Whether it fades with distance, and within its cone.
+// Whether the light fades with distance, and whether it fades within its cone.
 bool is_attenuated(const Light& light);
 bool has_spot_factor(const Light& light);
 
@@ -71,11 +71,11 @@ struct Material {
 struct Mesh;            // mesh.h
 struct ScreenTriangle;  // geometry.h
 
-// A mesh, triangles in screen space, or, where it has neither, a primitive.
+// A mesh or screen-space triangles; a primitive if both are null.
 struct Object {
   std::shared_ptr<const Mesh> mesh;
   std::shared_ptr<const std::vector<ScreenTriangle>> screen_triangles;
-  std::string primitive;                 // its name
+  std::string primitive;                 // name of the primitive
   std::array<int, 2> segments = {0, 0};  // [around, along]; 0 is the primitive's own default
   Vec3 translate = Vec3::Zero();         // applied last
   Vec3 rotate_degrees = Vec3::Zero();    // about x, then y, then z
@@ -90,7 +90,7 @@ struct DepthCue {
 };
 
 struct Scene {
-  std::string source;  // what messages call the scene, such as its file
+  std::string source;  // name of the scene in messages, such as its file
   Image image;
   Camera camera;
   Shading shading;

@@ -1,4 +1,4 @@
-// Triangles that turn too sharply for one quadratic, cut up before they are set up.
+// Subdivision, before setup, of triangles whose vectors turn too sharply for one quadratic.
 #pragma once
 
 #include "model/scene/geometry.h"
@@ -6,22 +6,25 @@
 namespace phongpipe {
 
 struct Subdivision {
-  Geometry geometry;                 // the pieces in place of the triangles that were split
-  std::vector<std::uint32_t> whole;  // of each piece, the triangle it is a part of
-  std::size_t split = 0;             // triangles that were
-  std::size_t pieces = 0;            // that these became
+  Geometry geometry;                 // with the pieces in place of the triangles that were split
+  std::vector<std::uint32_t> whole;  // for each triangle of `geometry`, the index of its original
+  std::size_t split = 0;             // number of original triangles that were split
+  std::size_t pieces = 0;            // number of pieces they became
 };
 
-// Splits a triangle by the middles of its edges into four where two normals of its corners are more
-// than `largest_turn_degrees` apart, or, if a highlight falls on it, normals and halfway vectors
-// together than the highlight reaches from its middle before it fades below 1 of 255; under a light
-// close by, also where its directions are more than half the limit apart, or within a cone more
-// than a third of what the cone's power reaches. The four again, up to kSubdivisionLevels deep. 0:
-// none.
+// Splits each triangle that turns too sharply into four at the midpoints of its edges, and these
+// again, up to kSubdivisionLevels deep. A triangle turns too sharply if, between two of its
+// corners,
+// - the normals turn by more than `largest_turn_degrees`; or
+// - where a highlight falls on the triangle, the normals and halfway vectors together turn by more
+//   than the angle from the middle of the highlight to where it fades below 1/255; or
+// - the directions to a point or spot light turn by more than half of `largest_turn_degrees`, or,
+//   in a cone that fades, by more than a third of the angle at which its power fades below 1/255.
+// `largest_turn_degrees` = 0 splits nothing.
 //
-// Middles are plain averages, not made unit, and exact on the screen. So what is interpolated over
-// the pieces, and with it exact Phong shading, is what it was over the whole; and the pieces cover
-// its pixels, each once, whether or not a neighbour is split too.
+// Midpoints are plain averages, not normalised, and exact on the screen. So interpolated vectors,
+// and with them exact Phong shading, are the same on the pieces as on the whole triangle. The
+// pieces cover the pixels of the triangle, each once, whether or not a neighbour is split too.
 Subdivision subdivide(const Scene& scene, const Geometry& geometry, int largest_turn_degrees);
 
 }  // namespace phongpipe

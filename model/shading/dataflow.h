@@ -1,6 +1,6 @@
-// A scalar that records what is done to it. Running a formula with it gives the operations executed
-// and their dependences: operation counts and the setup engine's schedule come from the same
-// templates as the values.
+// A scalar that records the operations applied to it. Running a formula template with it gives the
+// operations executed and their dependences. So operation counts and the setup engine's schedule
+// come from the same templates as the values.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,8 +11,8 @@
 
 namespace phongpipe {
 
-// The first four are the setup engine's; software shaders also divide, take roots and read tables.
-// A power is one of any constant exponent: logarithm, product and exponential, by tables.
+// The setup engine has the first four; software shaders also divide, take roots and read tables.
+// `power` takes any constant exponent: logarithm, product and exponential, by tables.
 enum class Operation { add, multiply, rsqrt, power, divide, sqrt, read };
 
 struct OperationCounts {
@@ -48,7 +48,8 @@ struct Dataflow {
   OperationCounts counts() const;
 };
 
-// Records into the Dataflow of the Recording that is alive; constants and inputs are free.
+// Operations on Recorded values enter the dataflow of the current Recording; constants and inputs
+// cost nothing.
 class Recorded {
  public:
   Recorded() = default;
@@ -88,7 +89,7 @@ class Recorded {
   int node_ = Dataflow::kInput;
 };
 
-// While alive, what Recorded does goes into dataflow(). Not nested; one a thread.
+// While it exists, collects its thread's operations on Recorded values in dataflow(). Not nested.
 class Recording {
  public:
   Recording();

@@ -1,5 +1,5 @@
-// The data members of a record, named once for everything that goes through all of them:
-// comparison, transfer between processes, JSON.
+// Names the data members of a record once, for all code that visits every member: comparison,
+// transfer between processes, JSON.
 //
 //     struct Record {
 //       int a = 0;
@@ -9,7 +9,7 @@
 //       }
 //     };
 //
-// A member that fields() leaves out does not compile where the fields are used.
+// If fields() leaves out a member, code that uses the fields does not compile.
 #pragma once
 
 #include <string_view>
@@ -37,14 +37,14 @@ struct HasFields<Record, std::void_t<decltype(Record::fields())>> : std::true_ty
 
 namespace detail {
 
-// Converts to any type, and so stands for a member in the braces of an aggregate.
+// Converts to any type, so it can initialise any member of an aggregate.
 struct AnyMember {
   template <typename T>
   constexpr operator T() const;  // NOLINT(google-explicit-constructor): the conversion is the point
 };
 
-// Where a member is a std::optional, its constructor and AnyMember's conversion are as good as each
-// other, of which -Wconversion warns. Neither is ever run.
+// For a std::optional member, its constructor and AnyMember's conversion match equally well, and
+// -Wconversion warns. Neither is ever run.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 template <typename Record, typename Indices, typename = void>
@@ -58,7 +58,7 @@ struct TakesMembers<
 
 }  // namespace detail
 
-// Whether fields() names every member of the aggregate: it takes as many initialisers and no more.
+// Whether fields() names every member: the aggregate takes exactly that many initialisers.
 template <typename Record>
 constexpr bool names_every_field() {
   constexpr std::size_t kNamed = std::tuple_size_v<decltype(Record::fields())>;
@@ -66,7 +66,7 @@ constexpr bool names_every_field() {
          !detail::TakesMembers<Record, std::make_index_sequence<kNamed + 1>>::value;
 }
 
-// visit(name, value) for each member, in the order of fields(). `Record` may be const.
+// Calls visit(name, value) for each member, in the order of fields(). `Record` may be const.
 template <typename Record, typename Visit>
 void for_each_field(Record& record, Visit&& visit) {
   using Plain = std::remove_const_t<Record>;

@@ -1,5 +1,5 @@
-// What is interpolated linearly in screen space: q(x, y) = A x + B y + C, x and y in pixels from
-// the expansion point.
+// Functions that are linear in screen space: q(x, y) = A x + B y + C, x and y in pixels from the
+// expansion point.
 #pragma once
 
 #include <array>
@@ -13,9 +13,8 @@ struct Linear {
   Q a, b, c;  // per pixel along x, per pixel along y, at the origin
 };
 
-// The corners of a triangle, in pixels from the origin, and what turns values at the corners into
-// Linear. The determinant's reciprocal is taken as rsqrt(det²)², the setup engine having no
-// divider.
+// Interpolates values at the corners of a triangle linearly. Corners are in pixels from the origin.
+// The reciprocal of the determinant is det · rsqrt(det²)², because the setup engine has no divider.
 template <typename T>
 class Interpolator {
  public:

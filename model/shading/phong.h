@@ -1,4 +1,4 @@
-// Exact Phong shading in real arithmetic: the reference all accounts are measured against.
+// Exact Phong shading in real arithmetic: the reference for all errors.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace phongpipe {
 
-// What one light does at one surface point.
+// Directions and colour of one light at one surface point.
 struct Illumination {
   Vec3 light = Vec3::Zero();  // unit, surface → light
   Vec3 highlight =
@@ -16,7 +16,8 @@ struct Illumination {
   Color color = Color::Zero();  // after attenuation and spot factor
 };
 
-// Whether the light's cone reaches a point; `unit_to_light`: surface → light. Only spots have one.
+// Whether a point is inside the light's cone; true for lights other than spots. `unit_to_light`:
+// surface → light.
 bool in_cone(const Light& light, const Vec3& unit_to_light);
 
 // `eye` is unit, `to_light` of true length.
@@ -35,8 +36,8 @@ class PhongTriangle {
  public:
   PhongTriangle(const Scene& scene, const Material& material, const ScreenTriangle& triangle);
 
-  // With depth cueing: the light moved towards its colour by the distance along the view, which is
-  // interpolated as the vectors are; what is overexposed fades from its unclamped value.
+  // With depth cueing, a colour moves towards the cue colour by the distance along the view, which
+  // is interpolated like the vectors. Overexposed colours fade from their unclamped value.
   //
   // Colours of `length` pixels from pixel (x, y) rightwards, in output LSB (0 to 255), not rounded.
   void shade(int x, int y, int length, Color* colors) const;
@@ -52,7 +53,7 @@ class PhongTriangle {
   std::vector<Linear<Vec3>> to_light_;
   Linear<double> distance_;           // along the view, where there is depth cueing
   bool lights_vary_;                  // from pixel to pixel
-  std::vector<Illumination> lights_;  // of every pixel, where they do not vary
+  std::vector<Illumination> lights_;  // of every pixel, if they do not vary
 };
 
 }  // namespace phongpipe

@@ -1,5 +1,5 @@
-// The operations the formulas need beside + − ×, for real numbers. A scalar that records or counts
-// overloads the same names.
+// Operations that the formulas need besides + − ×, for double. Other scalars, such as Recorded,
+// overload the same names.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +7,8 @@
 
 namespace phongpipe {
 
-// Unqualified, so that the overloads of other scalars are found; a change of exponent costs no
-// unit.
+// Call these unqualified, so that the overloads for other scalars are found. half and twice change
+// the exponent only and need no unit.
 inline double rsqrt(double x) {
   return 1 / std::sqrt(x);
 }

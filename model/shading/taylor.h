@@ -18,7 +18,7 @@ struct Quadratic {
   Quadratic scaled(const T& k) const { return {t0 * k, t1 * k, t2 * k, t3 * k, t4 * k, t5 * k}; }
 };
 
-// V = A x + B y + C and, divided by |C|², what its length depends on.
+// V = A x + B y + C, and the dot products, divided by |C|², that its length depends on.
 template <typename T>
 struct ScaledVector {
   Linear<Vector3<T>> vector;
@@ -27,7 +27,7 @@ struct ScaledVector {
   T aa, ab, bb;            // A·A/|C|², A·B/|C|², B·B/|C|²
 
   explicit ScaledVector(const Linear<Vector3<T>>& v) : ScaledVector(v, v.c.dot(v.c)) {}
-  // For a V that may vanish: |C|² is given, kept away from 0.
+  // For a V that may vanish. `positive`: |C|², kept away from 0.
   ScaledVector(const Linear<Vector3<T>>& v, const T& positive)
       : vector(v), squared_length(positive), root(rsqrt(positive)) {
     const T inverse = root * root;
@@ -39,7 +39,8 @@ struct ScaledVector {
   }
 };
 
-// What every series over the same normals shares: N = A x + B y + C and its length to second order.
+// The part common to all series over the same normals: N = A x + B y + C and its length to second
+// order.
 template <typename T>
 class NormalExpansion {
  public:
@@ -57,7 +58,8 @@ class NormalExpansion {
     return t.scaled(n_.squared_length * n_.root);
   }
 
-  // N·M / |N|, M constant and of unit length: a light or a halfway vector at infinity.
+  // N·M / |N| for a constant unit M: the direction to a light at infinity, or a constant halfway
+  // vector.
   Quadratic<T> infinite(const Vector3<T>& m) const {
     Quadratic<T> t;
     t.t0 = n_.vector.c.dot(m) * n_.root;
@@ -69,7 +71,7 @@ class NormalExpansion {
     return t;
   }
 
-  // N·M / (|N||M|), M = D x + E y + F: the halfway vector of an eye at a finite distance.
+  // N·M / (|N||M|) for M = D x + E y + F: the halfway vector of an eye at a finite distance.
   Quadratic<T> finite(const Linear<Vector3<T>>& m) const { return finite(ScaledVector<T>(m)); }
   Quadratic<T> finite(const ScaledVector<T>& m) const {
     const Linear<Vector3<T>>&n = n_.vector, &v = m.vector;

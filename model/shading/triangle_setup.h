@@ -1,5 +1,5 @@
 // The setup engine's arithmetic: from the vertices of a triangle to the unrounded coefficients of
-// every series the datapath steps. Run with double it gives values, with Recorded its dataflow.
+// every series the datapath steps. With double it computes values, with Recorded its dataflow.
 #pragma once
 
 #include <array>
@@ -11,25 +11,25 @@
 
 namespace phongpipe {
 
-// What is set up of a series: nothing; T0 alone, where the normals do not turn (light at infinity,
-// and for highlights an eye there); or all six coefficients.
+// Which coefficients of a series are set up: none; T0 alone, if all normals are equal and the light
+// (for highlights also the eye) is at infinity; or all six.
 enum class SeriesForm { absent, constant, fitted };
 inline bool is_present(SeriesForm form) {
   return form != SeriesForm::absent;
 }
 
-// All that decides what the setup engine executes for a triangle under one light.
+// Determines the operations that the setup engine executes for a triangle under one light.
 struct SeriesPlan {
   int channels = 1;
-  SeriesForm diffuse = SeriesForm::fitted;  // a series a channel, all made of one of N·L
-  SeriesForm gate = SeriesForm::absent;     // a series of N·L of its own
+  SeriesForm diffuse = SeriesForm::fitted;  // one series per channel, a multiple of N·L
+  SeriesForm gate = SeriesForm::absent;     // a separate series of N·L
   SeriesForm specular = SeriesForm::fitted;
   bool depth = true, depth_cue = false;  // linear series
-  // Whether bounds are computed first: light that cannot reach the triangle is left out, and of a
-  // highlight that cannot be seen at least the effort of its fit.
+  // Whether bounds of the series are computed first. A light that cannot reach the triangle is then
+  // left out; a highlight that cannot be seen is left out, or at least fitted without weights.
   bool bound_light = false, bound_highlight = false;
-  bool highlight_invisible = false;  // as its bound has shown
-  ReflectionForm form;               // but for what is wanted
+  bool highlight_invisible = false;  // proved by its bound
+  ReflectionForm form;               // except form.wanted, which setup_triangle() sets
 
   static constexpr auto fields() {
     using P = SeriesPlan;
@@ -41,9 +41,9 @@ struct SeriesPlan {
         field("highlight_invisible", &P::highlight_invisible), field("form", &P::form));
   }
 
-  // The series of N·L that diffuse and gate are made of.
+  // The form of the N·L series that diffuse and gate are multiples of.
   SeriesForm light() const { return is_present(diffuse) ? diffuse : gate; }
-  // The fits that weigh a highlight are lost on one that cannot be seen.
+  // The fit of the highlight: one without weights if the highlight cannot be seen.
   SeriesFit highlight_fit() const { return highlight_invisible ? SeriesFit::six_point : form.fit; }
 };
 
@@ -60,7 +60,7 @@ struct TriangleInput {
   std::array<T, 3> cue_factor;  // share of the pixel's own colour under depth cueing, not clamped
 };
 
-// What is the same for all triangles of a material under one light.
+// Inputs that are the same for all triangles of a material under one light.
 template <typename T>
 struct LightInput {
   ReflectionTerms<T> terms;
@@ -69,12 +69,12 @@ struct LightInput {
   T gate_scale;
 };
 
-// What the series of a triangle can reach, as cosines: of light as the weighted and focused fits
-// have it, of the highlight as six_point fits it.
+// Bounds of a triangle's series, as cosines: of N·L for the weighted and focused fits, of the
+// highlight for the six_point fit.
 template <typename T>
 struct TriangleBounds {
   SeriesRange<T> light, highlight;
-  std::optional<QuadraticForm<T>> squared_length;  // of the normals, which setup needs again
+  std::optional<QuadraticForm<T>> squared_length;  // |N|², which setup reuses
 };
 
 template <typename T>
@@ -105,7 +105,7 @@ struct TriangleCoefficients {
   Linear<T> cue_factor;
 };
 
-// `bounds`: where they have been computed.
+// `bounds`: from bound_triangle(), if computed.
 template <typename T>
 TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInput<T>& triangle,
                                        const LightInput<T>& light,

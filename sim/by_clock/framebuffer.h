@@ -1,4 +1,4 @@
-// framebuffer by the clock.
+// framebuffer, clock by clock.
 #pragma once
 
 #include "sim/clocked_fifo.h"
@@ -31,7 +31,7 @@ class Framebuffer : public sc_core::sc_module {
     if (busy_ > 0) --busy_;
     if (busy_ > 0 || pixels_.empty()) return;
     const DepthPixel& pixel = pixels_.front();
-    // A wrong place must not write outside the image; the comparison of streams will tell it.
+    // A wrong coordinate must not write outside the image; the comparison of streams reports it.
     const bool inside =
         pixel.pixel.x < context_.frame.width && pixel.pixel.y < context_.frame.height;
     busy_ = context_.framebuffer_cycles(pixel.first_pass, inside && take(pixel), stream_index_++);
@@ -48,7 +48,7 @@ class Framebuffer : public sc_core::sc_module {
   FrameContext& context_;
   ClockedFifo<DepthPixel>& pixels_;
   phongpipe::Framebuffer memory_;
-  std::unique_ptr<DatapathBlock> depth_test_;  // steps depth, where it is tested at all
+  std::unique_ptr<DatapathBlock> depth_test_;  // steps depth; null without depth test
   Cycle cycle_ = 0, busy_ = 0;
   std::uint32_t stream_index_ = 0;
 };

@@ -1,4 +1,4 @@
-// pixel_datapath by the clock: a ClockedDatapath, the model's or the RTL's, between two queues.
+// pixel_datapath, clock by clock: a ClockedDatapath, the model's or the RTL's, between two queues.
 #pragma once
 
 #include <deque>
@@ -52,7 +52,7 @@ class PixelDatapath : public sc_core::sc_module {
 
   void deliver(const ShadedPixel& pixel, Cycle cycle) {
     context_.record(pixel, cycle);
-    if (in_flight_.empty()) return;  // a pixel nobody asked for; the comparison will tell
+    if (in_flight_.empty()) return;  // the pixel belongs to no span; the comparison reports it
     const Span& span = in_flight_.front();
     pixels_.push({pixel, phongpipe::Framebuffer::depth(context_.frame, span, delivered_),
                   span.triangle, span.first_pass});
@@ -68,8 +68,8 @@ class PixelDatapath : public sc_core::sc_module {
   DatapathDriver driver_;
   DatapathBlocks blocks_;
   Cycle cycle_ = 0;
-  std::deque<Span> in_flight_;  // their depths travel with the pixels
-  int delivered_ = 0;           // pixels of the first of them
+  std::deque<Span> in_flight_;  // spans whose pixels are in the datapath
+  int delivered_ = 0;           // pixels delivered of the first span in flight
   std::uint64_t moved_ = 0;
 };
 

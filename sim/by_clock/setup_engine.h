@@ -1,4 +1,4 @@
-// setup_engine by the clock.
+// setup_engine, clock by clock.
 #pragma once
 
 #include "sim/clocked_fifo.h"

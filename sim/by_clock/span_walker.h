@@ -1,4 +1,4 @@
-// span_walker by the clock.
+// span_walker, clock by clock.
 #pragma once
 
 #include "sim/clocked_fifo.h"

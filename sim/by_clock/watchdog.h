@@ -1,5 +1,5 @@
-// Stops the simulation when all is done, and when nothing moves any more: then it reports what
-// every module is at.
+// Stops the simulation when it is complete, or when nothing moves any more; then it reports the
+// state of every module.
 #pragma once
 
 #include <fmt/format.h>
@@ -31,7 +31,7 @@ class Watchdog : public sc_core::sc_module {
   SC_HAS_PROCESS(Watchdog);
 
  private:
-  static constexpr Cycle kInterval = 64;  // looking more often would cost simulation time
+  static constexpr Cycle kInterval = 64;  // checking more often would cost simulation time
 
   void run() {
     std::uint64_t last = 0;

@@ -1,5 +1,5 @@
-// Any ClockedDatapath, such as the Verilated RTL, in the place of by_span::PixelDatapath: the same
-// queues, but every clock of the datapath is executed.
+// Any ClockedDatapath, such as the Verilated RTL, in place of by_span::PixelDatapath. The queues
+// are the same, but every clock of the datapath is executed.
 #pragma once
 
 #include <deque>
@@ -26,7 +26,7 @@ class ClockedPixelDatapath : public sc_core::sc_module {
   SC_HAS_PROCESS(ClockedPixelDatapath);
 
  private:
-  static constexpr Cycle kCheckInterval = 64;  // looking more often would cost simulation time
+  static constexpr Cycle kCheckInterval = 64;  // checking more often would cost simulation time
 
   void run();
   void deliver(const ShadedPixel& pixel, Cycle cycle);
@@ -38,7 +38,7 @@ class ClockedPixelDatapath : public sc_core::sc_module {
   DatapathDriver driver_;
   PixelTiming timing_;
   std::deque<Span> in_flight_;  // the framebuffer needs their depths
-  int delivered_ = 0;           // pixels of the first of them
+  int delivered_ = 0;           // pixels delivered of the first span in flight
 };
 
 }  // namespace phongpipe::by_span

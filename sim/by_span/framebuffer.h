@@ -1,4 +1,4 @@
-// framebuffer by the span: takes pixels as they come and says how long each keeps it busy.
+// framebuffer, span by span: takes pixels, and returns the cycles that each occupies it.
 #pragma once
 
 #include "sim/frame_context.h"
@@ -12,7 +12,7 @@ class Framebuffer : public sc_core::sc_module {
     if (context.frame.depth_test) depth_test_ = std::make_unique<DatapathBlock>("depth_test");
   }
 
-  // The cycles the next pixel of the stream takes.
+  // Takes the next pixel of the stream; returns its cycles.
   Cycle take(const Span& span, int i, const ShadedPixel& pixel) {
     count_test(span, 1);
     return take(span, i, pixel.x, pixel.y, pixel.color);
@@ -42,7 +42,7 @@ class Framebuffer : public sc_core::sc_module {
     if (depth_test_ && span.first_pass) depth_test_->operations.additions += pixels;
   }
 
-  std::unique_ptr<DatapathBlock> depth_test_;  // steps depth, where it is tested at all
+  std::unique_ptr<DatapathBlock> depth_test_;  // steps depth; null without depth test
   FrameContext& context_;
   phongpipe::Framebuffer memory_;
   std::uint32_t stream_index_ = 0;

@@ -1,4 +1,4 @@
-// pixel_datapath by the span: the model's values, and the time of each pixel in closed form.
+// pixel_datapath, span by span: the model's values, and the time of each pixel in closed form.
 #pragma once
 
 #include "model/fixed/pixel_datapath.h"
@@ -26,10 +26,10 @@ class PixelDatapath : public sc_core::sc_module {
  private:
   void run();
   bool needs_table(const Span& span) const { return span.highlight && span.table != loaded_; }
-  // Empties the datapath and loads the table; the cycle from which the span may enter.
+  // Empties the datapath and loads the table; returns the cycle from which the span may enter.
   Cycle load_table(std::uint32_t table, Cycle asked);
-  // Shades those waiting spans that lie side by side and have their table; their number, at
-  // least 1.
+  // Shades the waiting spans that are contiguous in the queue and whose table is loaded; returns
+  // their number, at least 1.
   std::size_t shade_waiting();
 
   FrameContext& context_;

@@ -1,4 +1,4 @@
-// setup_engine by the span: one triangle after the other, each for the cycles of its schedule.
+// setup_engine, span by span: one triangle after the other, each for the cycles of its schedule.
 #pragma once
 
 #include "sim/frame_context.h"

@@ -1,4 +1,4 @@
-// span_walker by the span: the rows of a triangle from the top down.
+// span_walker, span by span: the rows of a triangle from the top down.
 #pragma once
 
 #include "sim/frame_context.h"

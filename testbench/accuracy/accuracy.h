@@ -1,5 +1,5 @@
-// How far the picture is from exact Phong shading, and why: pixel by pixel along the chain
-// exact Phong → real polynomial → rounded coefficients → ROM → 8-bit output.
+// Error of the picture against exact Phong shading, split into its causes, pixel by pixel along the
+// chain exact Phong → real polynomial → rounded coefficients → ROM → 8-bit output.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace phongpipe {
 
-// Over channels of covered pixels, in output LSB.
+// Statistics over all channels of covered pixels, in output LSB.
 struct ErrorStatistics {
   double largest_lsb = 0;
   double sum_of_squares = 0;
@@ -38,17 +38,17 @@ struct Accuracy {
   std::uint64_t visible_pixels = 0;
   ErrorStatistics total;
   // Each is one step of the chain; at every pixel they add up to the total.
-  ErrorStatistics series;    // the second-degree polynomial for the exact reflection
+  ErrorStatistics series;    // second-degree polynomial in place of the exact reflection
   ErrorStatistics rounding;  // of coefficients and starts of spans
-  ErrorStatistics rom;       // index and word of the table for the power
-  ErrorStatistics output;    // to 8 bits
+  ErrorStatistics rom;       // rounding of index and word of the power's table
+  ErrorStatistics output;    // rounding to 8 bits
 
-  // Where they are asked for.
+  // If pictures are requested.
   Picture exact_picture;  // rounded to 8 bits
-  Picture error_picture;  // the largest error of a channel, as error_color shows it
+  Picture error_picture;  // the largest error of the channels, in the colours of error_color()
 };
 
-// Of the visible pixels of the model's frame.
+// Measures all visible pixels of the model's frame.
 Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures = true);
 
 }  // namespace phongpipe

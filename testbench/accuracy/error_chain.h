@@ -1,5 +1,5 @@
-// The links between exact Phong and the output, pixel by pixel: exact Phong → real polynomial →
-// rounded coefficients → ROM → 8-bit output. All lights together.
+// The colour of each pixel at every link of the chain exact Phong → real polynomial → rounded
+// coefficients → ROM → 8-bit output. All lights together.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,11 @@ struct ErrorChain {
   Color output;           // the datapath's output
 };
 
-// For every visible pixel of the model's frame, triangle by triangle from `first` to before `end`.
+// Calls `visit` for every visible pixel of the model's frame, triangle by triangle from `first` to
+// before `end`.
 void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model, std::uint32_t first,
                             std::uint32_t end, const std::function<void(const ErrorChain&)>& visit);
-// Of all triangles.
+// The same for all triangles.
 void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
                             const std::function<void(const ErrorChain&)>& visit);
 

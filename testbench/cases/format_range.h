@@ -1,4 +1,4 @@
-// The legal ranges of the formats, as the table of settings has them.
+// The legal ranges of the formats, from the table of settings.
 #pragma once
 
 #include <stdexcept>

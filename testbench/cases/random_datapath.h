@@ -1,5 +1,5 @@
-// Configurations, tables and spans the tests of pixel_datapath are made of: every combination of
-// blocks, and whatever their registers can hold.
+// Random configurations, tables and spans for tests of pixel_datapath: every combination of blocks,
+// and any contents of their registers.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ inline std::string text(const DatapathConfiguration& c) {
          std::to_string(static_cast<int>(c.gate)) + (c.depth_cue ? ", depth cueing" : "");
 }
 
-// A legal one. Widths are often at an end of their range.
+// A legal configuration. Widths are often at an end of their range.
 inline DatapathConfiguration random_configuration(Random& random) {
   DatapathConfiguration c;
   const auto in_range_or_at_an_end = [&random](int low, int high) {
@@ -54,7 +54,8 @@ inline OutputColor random_color(Random& random) {
   return color;
 }
 
-// From crawling to all over the register, extremes included; bits beyond the width are rubbish.
+// From small values to the whole range of the register, extremes included; bits beyond the width
+// are arbitrary.
 inline SeriesStart random_start(Random& random, int width) {
   const auto value = [&](int smallest_shift) {
     switch (random.integer(0, 9)) {
@@ -69,8 +70,8 @@ inline SeriesStart random_start(Random& random, int width) {
   return {value(0), value(64 - width), value(64 - width)};
 }
 
-// As the span walker may give it: what is not stepped has no differences, and where there is no
-// diffuse series the level stands for it.
+// A span as the span walker may produce it: a series that is not stepped has no differences, and
+// `level` replaces a missing diffuse series.
 inline Span random_span(Random& random, const DatapathConfiguration& c, int length) {
   Span span;
   span.row = {random.integer(0, 4096 - length), random.integer(0, 4095), length};

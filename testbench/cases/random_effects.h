@@ -1,5 +1,5 @@
-// Random scenes of any effects the pipeline simulates: lights, colours, materials without diffuse
-// light or highlight, either viewer, depth cueing, overlapping triangles or a mesh that tiles.
+// Random scenes with any effects the pipeline simulates: lights, colours, materials without diffuse
+// light or highlight, either viewer, depth cueing, overlapping triangles or a mesh without overlap.
 #pragma once
 
 #include <string>
@@ -13,10 +13,11 @@ namespace phongpipe {
 struct RandomEffects {
   Scene scene;
   Geometry geometry;
-  FrameConfiguration configuration;  // not yet suited to the scene
+  FrameConfiguration configuration;  // blocks not yet derived from the scene
 };
 
-// In sixteenths, so that several of a scene are the same now and then, black and full included.
+// Channels are multiples of 1/16, from 0 to 1, so that some colours of a scene are equal now and
+// then.
 inline Color random_light(Random& random, bool grey) {
   const auto channel = [&random] { return random.integer(0, 16) / 16.0; };
   if (grey) return Color::Constant(channel());
@@ -92,7 +93,7 @@ inline RandomEffects random_effects(Random& random, bool grey = false) {
 
   FrameConfiguration& c = result.configuration;
   c.channels = grey ? 1 : 3;
-  c.rom_address_bits = 6;  // short loads, so that other waits show
+  c.rom_address_bits = 6;  // short loads, so that other waits are visible
   c.rom_data_bits = random.integer(kMinRomDataBits, kMaxRomDataBits);
   c.gate = random.integer(0, 3) == 0 ? GateSource::off : GateSource::diffuse;
   c.anchor = random.integer(0, 1) == 0 ? Anchor::triangle : Anchor::span;
@@ -100,7 +101,7 @@ inline RandomEffects random_effects(Random& random, bool grey = false) {
   return result;
 }
 
-// What a failing test tells.
+// Description of a case, for a failing test.
 inline std::string text(const RandomEffects& effects) {
   const auto& [scene, geometry, c] = effects;
   return std::to_string(scene.lights.size()) + " lights, " +

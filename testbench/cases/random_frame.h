@@ -1,5 +1,5 @@
-// Frames the tests of fixed point and of the pipeline are made of: random screen triangles under
-// one light, with materials that alternate.
+// Random frames for tests of fixed point and of the pipeline: screen triangles of two materials
+// under one light.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@
 
 namespace phongpipe {
 
-// The configuration with the blocks that the scene's effects call for, or all. Channels and a gate
-// that is off stay as they are.
+// The configuration with the blocks that the scene's effects require, or all blocks. The number of
+// channels and a gate that is off are kept.
 inline FrameConfiguration with_derived_blocks(FrameConfiguration configuration, const Scene& scene,
                                               const Geometry& geometry,
                                               Effects effects = Effects::derived) {
@@ -43,8 +43,8 @@ inline Material grey_material(double diffuse, double specular, double shininess)
   return material;
 }
 
-// `size`: largest distance of a corner from the triangle's middle, in pixels. Normals within 30° of
-// an axis that roughly faces the eye.
+// `size`: largest distance of a corner from the triangle's middle in x and in y, in pixels. Normals
+// are within 30° of an axis that roughly faces the eye.
 inline ScreenTriangle random_triangle(Random& random, const Image& image, double size) {
   ScreenTriangle triangle;
   const double x = random.uniform(0, image.width), y = random.uniform(0, image.height);
@@ -54,18 +54,18 @@ inline ScreenTriangle random_triangle(Random& random, const Image& image, double
       vertex.x = snap(x + random.uniform(-size, size));
       vertex.y = snap(y + random.uniform(-size, size));
       vertex.z = random.uniform(0, 1);
-      vertex.position = Vec3(0, 0, -vertex.z);  // 5 to 6 before the default camera
+      vertex.position = Vec3(0, 0, -vertex.z);  // 5 to 6 in front of the default camera
       vertex.normal = random.unit_near(axis, 30);
       vertex.eye = random.unit_near(Vec3(0, 0, 1), 20);
       vertex.eye *= random.uniform(2, 4);
     }
-    // Slivers have gradients beyond what a register holds; they have tests of their own.
+    // Slivers have gradients that overflow a register; other tests cover them.
   } while (std::llabs(signed_area(triangle)) <
            static_cast<long long>(0.2 * size * size * kSubpixels * kSubpixels));
   return triangle;
 }
 
-// Triangles of two materials in turn.
+// Each triangle has one of two materials, at random.
 inline Geometry random_geometry(Random& random, const Scene& scene, int triangles, double size) {
   Geometry geometry;
   geometry.materials = {grey_material(0.6, 0.3, 20), grey_material(0.4, 0.5, 60)};

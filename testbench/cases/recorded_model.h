@@ -1,4 +1,4 @@
-// The model's frame with every pixel and span kept, for tests that look at them one by one.
+// The model's frame with all its pixels and spans recorded, for tests that check them one by one.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ struct RecordedSpan {
 
 struct RecordedModel : ModelFrame {
   std::vector<ShadedPixel> stream;  // every shaded pixel, in order, before the depth test
-  std::vector<RecordedSpan> spans;  // where they come from
+  std::vector<RecordedSpan> spans;  // the spans of these pixels, in order
 };
 
 inline RecordedModel record_model(const FrameSetup& frame,

@@ -1,5 +1,5 @@
 // The commands of the program, one file each. Each adds its options to the application, and sets
-// `run` when it is the one that was called.
+// `run` if it was called.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,7 +19,7 @@
 
 namespace phongpipe {
 
-// The exit status of the program, besides 0 where all holds.
+// Exit statuses of the program besides 0, which means success.
 constexpr int kCheckFailed = 1, kBadInput = 2, kToolFailed = 3;
 
 using Run = std::function<int()>;  // returns the exit status
@@ -28,14 +28,14 @@ void add_compare(CLI::App& application, Run& run);
 void add_render(CLI::App& application, Run& run);
 void add_verify(CLI::App& application, Run& run);
 
-// A scene by its file, or by the name of a shipped one; messages call it by `name`. Throws
+// Loads a scene from a file, or a shipped scene by its name; messages refer to it by `name`. Throws
 // InputError.
 Scene load_named_scene(const std::string& name);
 
-// What --help-settings prints.
+// The text of --help-settings.
 std::string settings_help();
 
-// What several commands take.
+// Options for the hardware, common to several commands.
 struct HardwareOptions {
   std::string hardware = "default";
   std::vector<std::string> overrides;
@@ -43,7 +43,8 @@ struct HardwareOptions {
   void add_to(CLI::App& command);
 };
 
-// An option whose value is one of some words. `Value`: the enumeration, or an optional of it.
+// Adds an option whose value is one of the given words. `Value`: the enumeration, or an optional of
+// it.
 template <typename Enum, typename Value>
 void add_choice(CLI::App& command, const std::string& flag, Value& value,
                 const std::vector<std::pair<std::string_view, Enum>>& choices,
@@ -68,16 +69,16 @@ void add_choice(CLI::App& command, const std::string& flag, Value& value,
 // A finite number above 0.
 CLI::Validator positive_number();
 
-// Where a result goes: a file, standard output for "-", nowhere for an empty name.
+// Writes a result to a file, to standard output for "-", or nowhere for an empty name.
 void write_output(const std::string& file, const std::string& text);
-// Throws InputError where write_output() could not, before the work.
+// Throws InputError if write_output() could not write to `file`. Call it before long work.
 void check_output(const std::string& file);
-// Throws InputError where `files`, all of one folder that need not be there yet, cannot be written;
-// changes nothing.
+// Throws InputError if `files`, all in `folder`, cannot be written; changes nothing. The folder
+// need not exist yet.
 void check_outputs(const std::filesystem::path& folder,
                    const std::vector<std::filesystem::path>& files);
 
-// --power: how the power of highlights is computed by the methods in real arithmetic.
+// --power: how methods in real arithmetic compute the power of highlights.
 void add_power_option(CLI::App& command, std::optional<PowerKind>& power);
 
 }  // namespace phongpipe

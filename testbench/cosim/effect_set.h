@@ -1,4 +1,4 @@
-// Which effects a scene calls for, by the names reports give them.
+// The effects that a scene uses, and those left out, by their names in reports.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What is found out about one implementation of the pipeline, SystemC or RTL, by simulating it.
+// Result of simulating one implementation of the pipeline, SystemC or RTL.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace phongpipe {
 
-// The first pixel at which an implementation leaves the model.
+// The first pixel at which an implementation differs from the model.
 struct Divergence {
   std::uint64_t stream_index = 0;  // of the pixel among all shaded pixels
-  std::uint32_t triangle = 0;      // of the scene, also where it was split
+  std::uint32_t triangle = 0;      // of the scene, even if it was split
   std::int64_t cycle = 0;
   ShadedPixel model, found;
   bool missing = false;  // the implementation ended before this pixel
@@ -24,7 +24,7 @@ struct Divergence {
   }
 };
 
-// Hashes that are the same where two streams, two frames or the cycles of all pixels are.
+// Hashes of the stream, of the frame and of the cycles of all pixels, to compare two simulations.
 struct Fingerprint {
   std::uint64_t pixels = 0;  // shaded
   std::uint64_t stream_hash = 0;
@@ -43,8 +43,8 @@ struct Fingerprint {
 struct ImplementationResult {
   SimulationCounts counts;
   Fingerprint fingerprint;
-  double processor_seconds = 0;  // to simulate
-  // Against the model: pixels of the stream and of the final frame that differ.
+  double processor_seconds = 0;  // CPU time of the simulation
+  // Numbers of pixels that differ from the model, in the stream and in the final frame.
   std::uint64_t stream_mismatches = 0, frame_mismatches = 0;
   std::optional<Divergence> first_divergence;
 

@@ -1,5 +1,5 @@
-// What a verification measures. Each metric is described here and nowhere else: screen, JSON and
-// tables are made from the descriptions.
+// Metrics of a verification. Each is described only here: screen output, JSON and tables are made
+// from the descriptions.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,18 @@ using MetricValue = std::variant<std::int64_t, double>;
 struct Metric {
   enum class Better { less, more, neither };
 
-  std::string_view name;  // with its unit, as a column is called
-  std::string_view json;  // where JSON has it, as a JSON pointer; empty: only in `effects`
+  std::string_view name;  // with its unit, as heading of a column
+  std::string_view json;  // its place in the report, as a JSON pointer; empty: only in `effects`
   std::string_view unit;  // empty for a count
   Better better;
   std::string_view meaning;
   MetricValue (*value)(const VerificationResult&);
-  bool of_blocks = false;  // compared with hardware that has every effect
+  bool of_blocks = false;  // also compared with hardware that has every effect
 };
 
 const std::vector<Metric>& metrics();
 
-// A number as people read it: with separators, or with decimals.
+// The value for people: whole numbers with separators, others with 4 digits.
 std::string metric_text(const MetricValue& value);
 
 }  // namespace phongpipe

@@ -1,5 +1,5 @@
-// Compares the pixels of an implementation with the model's: by hashes while all is well, pixel by
-// pixel where they differ. Neither keeps the stream, which may be far larger than the image.
+// Compares the pixels of an implementation with the model's: by hashes, and pixel by pixel if the
+// hashes differ. The stream is never stored; it may be far larger than the image.
 #pragma once
 
 #include "model/fixed/model_frame.h"
@@ -8,7 +8,7 @@
 
 namespace phongpipe {
 
-// Hashes a stream of pixels as it comes.
+// Hashes a stream of pixels as it arrives.
 class StreamHash {
  public:
   void add(const ShadedPixel& pixel) {
@@ -28,7 +28,7 @@ class StreamHash {
     }
   }
   Fingerprint fingerprint() const { return {pixels_, stream_.value(), 0, cycles_.value()}; }
-  // With the hash of the frame at the end, as an image of three channels.
+  // Includes the hash of the final frame, as an image of three channels.
   Fingerprint fingerprint(const Framebuffer& framebuffer, int channels) const;
 
  private:
@@ -41,18 +41,19 @@ inline bool same_stream(const Fingerprint& a, const Fingerprint& b) {
   return a.pixels == b.pixels && a.stream_hash == b.stream_hash;
 }
 
-// Pixels of the final frames that differ; a grey frame is compared with all channels of one in
-// colour.
+// Number of pixels that differ in the final frames. A grey frame is compared with all channels of a
+// colour frame.
 std::uint64_t count_frame_mismatches(const Framebuffer& model, int model_channels,
                                      const Framebuffer& found, int channels);
 
-// Runs the model beside a stream and finds where they part.
+// Runs the model beside a stream and finds where they differ.
 class StreamChecker {
  public:
   explicit StreamChecker(const FrameSetup& frame) : model_(frame) {}
 
   void observe(const ShadedPixel& pixel, std::int64_t cycle);
-  // After the last pixel: whatever the model still has is missing. `cycle`: in which it ended.
+  // Call after the last pixel: remaining pixels of the model count as missing. `cycle`: the cycle
+  // of the end.
   void finish(std::int64_t cycle);
 
   std::uint64_t mismatches() const { return mismatches_; }
@@ -65,7 +66,7 @@ class StreamChecker {
 
   SpanStream model_;
   int next_in_span_ = 0, span_length_ = 0;
-  std::uint32_t triangle_ = 0;  // of the last span
+  std::uint32_t triangle_ = 0;  // of the current span
   std::uint64_t stream_index_ = 0;
   std::uint64_t mismatches_ = 0;
   std::optional<Divergence> first_;

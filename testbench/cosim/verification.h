@@ -1,5 +1,5 @@
-// One scene three ways: bit-accurate model, SystemC pipeline and Verilated RTL, pixel by pixel,
-// with accuracy against exact Phong and time against the budget.
+// Verifies one scene: compares bit-accurate model, SystemC pipeline and Verilated RTL pixel by
+// pixel, and measures accuracy against exact Phong shading and time against the budget.
 #pragma once
 
 #include <filesystem>
@@ -17,49 +17,49 @@
 
 namespace phongpipe {
 
-// What is built and simulated: the effects that the scene calls for, all there are, or the first
-// and beside it the second, to see what leaving out saves and that it changes no pixel.
+// Which hardware is simulated: with the effects that the scene uses; with all effects; or both, to
+// see what leaving effects out saves and that it changes no pixel.
 enum class EffectsToVerify { scene, all, both };
 
 struct VerificationOptions {
-  double budget_ns = 100;  // for a pixel of the whole frame
+  double budget_ns = 100;  // per shaded pixel, for the whole frame
   Detail detail = Detail::span;
   int stall_percent = 0;
   std::uint32_t seed = 1;  // of the random back-pressure
   EffectsToVerify effects = EffectsToVerify::scene;
   std::filesystem::path rtl_sources;  // folder; empty: the installed RTL
-  bool pictures = false;              // whether the result has any
+  bool pictures = false;              // whether the result contains pictures
 };
 
-// The same frame by SystemC hardware that has every effect and leaves nothing out. Its picture must
-// be the same to the bit.
+// The same frame, simulated by SystemC hardware that has every effect. Its picture must be the same
+// to the bit.
 struct FullHardwareResult {
   DatapathConfiguration datapath;
   ImplementationResult systemc;
 };
 
 struct VerificationResult {
-  std::string scene;  // what messages call it
+  std::string scene;  // its name in messages
   int width = 0, height = 0;
   VerificationOptions options;
   Hardware hardware;  // resolved
   FrameConfiguration configuration;
   double clock_ns = 0;
-  std::vector<std::string> notes;   // what a user should know of the scene
+  std::vector<std::string> notes;   // messages for the user about the scene
   std::size_t triangles_read = 0;   // of the meshes
   std::size_t triangles = 0;        // after clipping and culling
-  std::size_t triangles_split = 0;  // that turn too sharply for one series
-  std::size_t pieces = 0;           // that these became
-  TriangleCounts set_up;            // pieces for those split
+  std::size_t triangles_split = 0;  // because they turn too sharply for one series
+  std::size_t pieces = 0;           // that the split triangles became
+  TriangleCounts set_up;            // counts pieces in place of split triangles
   std::uint64_t pixels = 0;         // shaded
-  double rom_error = 0;             // largest of the materials' tables, as a share of full scale
+  double rom_error = 0;             // largest of the power's tables, as a fraction of full scale
   ImplementationResult systemc, rtl;
   EffectSet effects;
   std::optional<FullHardwareResult> full_hardware;  // with EffectsToVerify::both
   Accuracy accuracy;
-  Picture result_picture;  // as the other two, where pictures are asked for
+  Picture result_picture;  // if requested, like those of `accuracy`
 
-  // Time of the RTL's datapath, and of the whole frame, over the pixels shaded.
+  // Time of the RTL's datapath, and of the whole frame, per shaded pixel.
   double datapath_ns_per_pixel() const;
   double frame_ns_per_pixel() const;
   std::int64_t cycle_difference() const {
@@ -70,10 +70,11 @@ struct VerificationResult {
   bool passed() const;
 };
 
-// Told what is being done.
+// Called with a description of the current step.
 using ShowProgress = std::function<void(const std::string&)>;
 
-// Throws InputError where nothing is to be seen, or where the technology has no such clock.
+// Throws InputError if no pixel is visible, or if the technology has no clock for the
+// configuration.
 VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
                           const Hardware& hardware, const VerificationOptions& options,
                           const ShowProgress& progress = {});

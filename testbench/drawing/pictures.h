@@ -20,27 +20,27 @@ struct Picture {
   std::vector<std::uint8_t, LargeAllocator<std::uint8_t>> bytes;  // row by row from the top
 
   Picture() = default;
-  // All of one colour, of which the first `channels` bytes are taken.
+  // All pixels of one colour, given by the first `channels` bytes of `color`.
   Picture(int width, int height, int channels, const std::uint8_t* color);
   std::uint8_t* pixel(std::size_t index) {
     return bytes.data() + index * static_cast<std::size_t>(channels);
   }
 };
 
-// What a framebuffer shows.
+// The picture in a framebuffer.
 Picture picture_of(const Framebuffer& framebuffer, int width, int height, int channels);
-// The same in LSB, as three channels.
+// Packed colours as numbers in LSB, in three channels.
 std::vector<Color> in_lsb(const std::vector<std::uint32_t>& colors, int channels);
-// Real colours in LSB, rounded; grey ones if `channels` is 1.
+// The picture of real colours in LSB, rounded; grey if `channels` is 1.
 Picture picture_of(const std::vector<Color>& colors, int width, int height, int channels);
 
-// Errors in LSB: black at 0 over blue, red and yellow to white at kErrorMapTop and above; dark
-// green where nothing is covered.
+// Colour of an error in LSB: from black at 0 through blue, red and yellow to white at kErrorMapTop
+// and above. Dark green marks pixels that are not covered.
 constexpr double kErrorMapTop = 4;
 constexpr Rgb kUncoveredColor = {12, 40, 24};
 Rgb error_color(double error);
 
-// Written as write_text() does.
+// Writes the file as write_text() does.
 void write_png(const std::filesystem::path& file, const Picture& picture);
 // Float RGB, bottom row first, little-endian.
 void write_pfm(const std::filesystem::path& file, const std::vector<Color>& colors, int width,

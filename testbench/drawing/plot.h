@@ -1,5 +1,5 @@
-// Charts as SVG text: lines or labelled points over two axes, on white. No scripts, no other files
-// and no ids, so that the text may stand in an HTML page as it is.
+// Charts as SVG text: lines or labelled points over two axes, on white. Without scripts, other
+// files and ids, so the text can stand in an HTML page as it is.
 #pragma once
 
 #include <string>

@@ -6,22 +6,22 @@
 
 namespace phongpipe {
 
-// A logarithmic axis ends this many decades below its largest value: errors of rounding, 10^-13 of
-// an LSB, would squeeze all others.
+// Largest number of decades of a logarithmic axis, below its largest value. Rounding errors of
+// 10^-13 LSB would otherwise squeeze all other values.
 constexpr int kMostDecades = 7;
 
-// The labelled ticks of an axis that shows `low` to `high`, from its one end to its other: decades
-// (and 2 and 5 times them where there are few) on a logarithmic axis, else multiples of 1, 2 or 5
-// times a power of ten.
+// The labelled ticks of an axis that shows `low` to `high`; the axis ends at the first and last
+// tick. On a logarithmic axis: decades (and 2 and 5 times them if there are few); else multiples of
+// 1, 2 or 5 times a power of ten.
 std::vector<double> axis_ticks(double low, double high, bool logarithmic);
 
 // Whether a coordinate can be drawn: finite, and positive on a logarithmic axis.
 bool usable(double value, bool logarithmic);
 
-// Shows usable values only.
+// An axis for usable() values.
 class Axis {
  public:
-  // Of at least the range from `low` to `high`, but see kMostDecades.
+  // Shows at least `low` to `high`, limited by kMostDecades.
   Axis(double low, double high, bool logarithmic);
 
   const std::vector<double>& ticks() const { return ticks_; }

@@ -1,4 +1,4 @@
-// Where the labels of a chart's points go.
+// Placement of labels beside the points of a chart.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace phongpipe {
 
-constexpr double kCharacter = 6.1, kTextHeight = 12;  // of text of 11 pixels, on average
+constexpr double kCharacter = 6.1, kTextHeight = 12;  // average width, and height, of 11-pixel text
 
 inline double text_width(const std::string& text) {
   const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
@@ -28,14 +28,14 @@ struct Box {
   }
 };
 
-// Places for labels beside points, each clear of points and of labels placed before.
+// Finds places for labels beside points, clear of all points and of earlier labels.
 class Labels {
  public:
   explicit Labels(const Box& frame) : frame_(frame) {}
 
   void avoid(double x, double y) { taken_.push_back({x - 4, y - 4, x + 4, y + 4}); }
 
-  // Nearest first. Where nothing is free, beside the point over whatever is there.
+  // The nearest free place. If none is free, beside the point, over whatever is there.
   Box place(double x, double y, double width) {
     constexpr std::array<std::array<int, 2>, 8> kDirections = {
         {{1, 0}, {1, -1}, {1, 1}, {-1, 0}, {-1, -1}, {-1, 1}, {0, -1}, {0, 1}}};

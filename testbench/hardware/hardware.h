@@ -13,7 +13,7 @@
 
 namespace phongpipe {
 
-// All that a user chooses.
+// All that a user chooses of the hardware.
 struct Hardware {
   std::string name;  // of the preset or file
   FixedPointFormats formats;
@@ -30,12 +30,12 @@ const Settings<Hardware>& hardware_settings();
 // technology=card. Throws InputError.
 Hardware load_hardware(const std::string& name, const std::vector<std::string>& overrides);
 
-// Replaces what was left to the scene (the number of channels, the source of the gate) by what the
-// scene has decided.
+// Replaces the settings left to the scene (number of channels, source of the gate) by those that
+// the scene requires.
 Hardware resolved(const Hardware& hardware, const EffectBlocks& blocks);
 
-// The shading method that is the hardware's series in real arithmetic; those for a local viewer end
-// alike.
+// Name of the shading method that evaluates the hardware's series in real arithmetic. Methods for a
+// local viewer end in kLocalSuffix.
 constexpr std::string_view kLocalSuffix = "-local";
 std::string method_of(const Hardware& hardware, const Scene& scene);
 

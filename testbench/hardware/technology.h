@@ -1,5 +1,4 @@
-// A technology card: how long a clock of the pixel datapath is, by its width, table size and
-// effects.
+// A technology card: the clock period of the pixel datapath, by its width, table size and effects.
 #pragma once
 
 #include <filesystem>
@@ -18,17 +17,17 @@ struct Technology {
   };
   std::string name;
   std::string source;         // where the figures come from
-  std::vector<Point> points;  // by width; empty where the clock is fixed
+  std::vector<Point> points;  // sorted by width; empty if the clock is fixed
   double fixed_clock_ns = 0;
-  double depth_cue_clock_ns =
-      0;  // the least clock with the multiplier of depth cueing, where points are
+  // Least clock period with the multiplier of depth cueing; with `points` only.
+  double depth_cue_clock_ns = 0;
 
-  // The clock of the next wider point; a larger table adds what it adds at the width where both
-  // sizes were measured.
+  // The clock period of the narrowest point that is wide enough. A larger table adds the difference
+  // measured at a width that has both table sizes. Throws InputError if no point is large enough.
   double clock_ns(const DatapathConfiguration& configuration) const;
 };
 
-// By file, or by the name of a card. Throws InputError.
+// Loads a card from a file, or by its name. Throws InputError.
 Technology load_technology(const std::string& name);
 
 }  // namespace phongpipe

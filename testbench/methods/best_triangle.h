@@ -1,4 +1,4 @@
-// One triangle shaded by the best quadratics there are: what better setup engines could still gain.
+// One triangle shaded by the best quadratics: what better setup engines could still gain.
 #pragma once
 
 #include <vector>
@@ -16,11 +16,11 @@ class BestTriangle {
   BestTriangle(const Scene& scene, const Material& material, const ScreenTriangle& triangle,
                const std::vector<RowSpan>& rows);
 
-  // As PhongTriangle's.
+  // As PhongTriangle::shade().
   void shade(int x, int y, int length, Color* colors) const;
 
  private:
-  // Of one light.
+  // The series of one light.
   struct Series {
     Quadratic<double> light, highlight;  // about the middle of pixel (origin_x_, origin_y_)
   };

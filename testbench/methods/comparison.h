@@ -1,4 +1,4 @@
-// All shading methods on one scene: what each costs, and how far it is from exact Phong shading.
+// Compares all shading methods on one scene: cost, and error against exact Phong shading.
 #pragma once
 
 #include <functional>
@@ -16,19 +16,21 @@ struct MethodResult {
   std::string_view name, source;
   std::string refused;  // why it cannot render the scene; nothing below is filled in then
   std::string note;
-  // The best quadratics: computed offline, by no method. Costs and times are not filled in then.
+  // True for the best quadratics, computed offline and by no method; costs and times are then not
+  // filled in.
   bool is_limit = false;
 
   MethodCosts costs;
   double clocks_per_pixel = 0;  // on the configured units, setup amortised over the scene
   double ns_per_pixel = 0;
-  double operations_per_pixel = 0;  // one after the other, as the paper counts, setup amortised
-  // Triangles of so many pixels and more cost less than exact Phong's, one operation after the
-  // other.
+  double operations_per_pixel = 0;  // executed one by one as in the paper, setup amortised
+  // Least triangle size in pixels from which the method costs less than exact Phong, with
+  // operations executed one after the other; empty if there is none.
   std::optional<int> break_even_pixels;
-  double wall_clock_ns_per_pixel = 0;  // per shaded pixel, on this machine, one run, setup included
+  double wall_clock_ns_per_pixel = 0;  // measured, per shaded pixel, fastest of 3 runs, with setup
   ErrorStatistics error;
-  // Largest jump of the error between pixels on both sides of an edge that triangles share.
+  // Largest jump of the error between neighbouring pixels on both sides of an edge shared by two
+  // triangles.
   double largest_seam_lsb = 0;
 
   std::vector<Color> colors;
@@ -36,17 +38,17 @@ struct MethodResult {
 };
 
 struct Comparison {
-  std::string scene;  // what messages call it
+  std::string scene;  // its name in messages
   Hardware hardware;  // resolved
   double clock_ns = 0;
   int width = 0, height = 0, channels = 3;
-  std::size_t triangles = 0, spans = 0, pixels = 0;  // with a pixel; rows; shaded
+  std::size_t triangles = 0, spans = 0, pixels = 0;  // triangles with a pixel, rows, shaded pixels
   PowerKind power = PowerKind::exact;
-  std::size_t split = 0, pieces = 0;  // triangles that fitted quadratics get in so many pieces
+  std::size_t split = 0, pieces = 0;  // split triangles for fitted quadratics, and their pieces
   std::vector<MethodResult> methods;  // the limit of quadratics last
 };
 
-// `power`: of the methods' highlights; an exact one is counted as a table read.
+// `power`: how methods compute the power of highlights; an exact power is counted as a table read.
 Comparison compare(const Scene& scene, const Hardware& hardware,
                    const std::function<void(const std::string&)>& progress,
                    PowerKind power = PowerKind::exact);

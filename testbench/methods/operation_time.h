@@ -1,4 +1,4 @@
-// From operations counted to time.
+// Converts operation counts to time.
 #pragma once
 
 #include "model/shading/dataflow.h"
@@ -6,13 +6,15 @@
 
 namespace phongpipe {
 
-// Clocks in which the given units can start these operations over and over, each unit always fed:
-// the busiest kind decides. There is no divider and no root: x/√y is an rsqrt and a multiplication,
-// a division alone an rsqrt and two, a root alone an rsqrt and one. One memory port.
+// Clocks per repetition if the given units repeat these operations and are always fed: the busiest
+// kind of unit decides. There is one memory port, and no unit for division or roots: x/√y takes an
+// rsqrt and a multiplication, a division alone an rsqrt and two multiplications, a root alone an
+// rsqrt and one.
 double clocks(const OperationCounts& counts, const PipelineConfiguration& units);
 
-// Operations one after the other as Bishop & Weimer count them: additions, multiplications and
-// memory references 1 each, 1/√x and what is made of it 10; so are powers.
+// Time of operations executed one after the other, as Bishop & Weimer count: 1 for an addition,
+// multiplication or memory reference; 10 for 1/√x, a power, or a division or root alone; 11 for
+// x/√y.
 double sequential_operations(const OperationCounts& counts);
 
 }  // namespace phongpipe

@@ -1,5 +1,5 @@
-// A whole frame in real arithmetic. Colours are in LSB and not rounded; the background stands where
-// nothing is covered.
+// A whole frame in real arithmetic. Colours are in LSB and not rounded; pixels that are not covered
+// have the background colour.
 #pragma once
 
 #include <vector>
@@ -13,17 +13,17 @@ namespace phongpipe {
 std::vector<Color> render_phong(const Scene& scene, const Geometry& geometry,
                                 const Visibility& visibility);
 
-// The limit for six numbers a triangle: the best quadratics in place of each light's cosines, with
-// exact powers; the fading of lights and their cones are exact.
+// The limit of six coefficients per series: the best quadratics replace each light's cosines.
+// Powers, attenuation and cones are exact.
 std::vector<Color> render_best(const Scene& scene, const Geometry& geometry,
                                const Visibility& visibility);
 
 struct MethodFrame {
   std::vector<Color> colors;
-  std::size_t exact_spans = 0;  // that the method left to exact Phong, its own form degenerating
+  std::size_t exact_spans = 0;  // shaded by exact Phong, because the method is degenerate there
 };
 
-// By a shading method that does not refuse the scene (see refusal).
+// Shades by a method that does not refuse the scene (see refusal).
 MethodFrame render_method(const Scene& scene, const Geometry& geometry,
                           const Visibility& visibility, const ShadingMethod& method,
                           PowerKind power);

@@ -1,5 +1,5 @@
-// Random triangles of about 40 pixels, each with a light and an eye of its own at infinity, on
-// which shading methods are compared.
+// Random triangles with sides of about 40 pixels, each with its own light and eye at infinity, for
+// comparing shading methods.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,14 @@
 namespace phongpipe {
 
 struct SpecimenKind {
-  double spread_degrees = 20;         // the largest angle between two normals of a triangle
-  double eye_from_peak_degrees = 30;  // the eye is at most so far from the highlight's peak, which
-                                      // is inside the triangle; the light is opposite
+  double spread_degrees = 20;  // the largest angle between two normals of a triangle
+  // Largest angle between the eye and the normal at the highlight's peak. The peak is inside the
+  // triangle; the light is opposite.
+  double eye_from_peak_degrees = 30;
   Highlight highlight = Highlight::halfway;
 };
 
-// Light and eye need not be where the screen would have them: shading depends only on the angles
+// Light and eye may lie anywhere relative to the screen, because shading depends only on the angles
 // between them and the normals. No ambient light.
 struct Specimen {
   Scene scene;
@@ -27,7 +28,7 @@ struct Specimen {
   std::vector<RowSpan> rows;  // the pixels covered
   std::size_t pixels = 0;
 
-  // Of the covered pixels, row by row; power exact. Levels in LSB of the first channel.
+  // Values of the covered pixels, row by row, with exact power. Levels in LSB of the first channel.
   std::vector<double> shade(const ShadingMethod& method) const;
   std::vector<Reflection<double>> reflect(const ShadingMethod& method) const;
 
@@ -35,10 +36,10 @@ struct Specimen {
   std::unique_ptr<TriangleShader> shader(const ShadingMethod& method) const;
 };
 
-// The same triangles and angles around for each kind, only tilted more or less.
+// With one seed, all kinds have the same triangles and azimuths; only the tilts differ.
 std::vector<Specimen> random_specimens(const SpecimenKind& kind, int count, std::uint32_t seed);
 
-// Infinite where a level is not a number.
+// Infinite if a level is NaN.
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b);
 
 }  // namespace phongpipe

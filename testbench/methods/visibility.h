@@ -1,5 +1,5 @@
-// Which triangle is seen at each pixel, with the coverage of the pipeline and depths in double
-// precision: what pictures in real arithmetic are drawn by, one method like the other.
+// The triangle seen at each pixel, with the coverage of the pipeline and depths in double
+// precision. All pictures in real arithmetic are drawn by it, whatever the method.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct Visibility {
 
   int width = 0, height = 0;
   std::vector<std::uint32_t> seen;         // triangle of each pixel of the image, or kNothing
-  std::vector<std::vector<RowSpan>> rows;  // of each triangle: all it covers, seen or hidden
-  std::size_t spans = 0, shaded = 0, triangles = 0;  // rows, pixels in them, triangles with any
+  std::vector<std::vector<RowSpan>> rows;  // of each triangle: all its pixels, seen or hidden
+  std::size_t spans = 0, shaded = 0, triangles = 0;  // rows, their pixels, triangles with any pixel
 
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +

@@ -13,15 +13,15 @@ std::string comparison_text(const Comparison& comparison);
 nlohmann::ordered_json comparison_json(const Comparison& comparison);
 std::string comparison_csv(const Comparison& comparison);
 
-// Largest error against time, a point a method.
+// Largest error against time, one point per method.
 Chart accuracy_against_time(const Comparison& comparison);
 
 // Writes SCENE-methods.html into the folder, with the plot in it, and the pictures it shows: each
 // method's and its error map.
 void write_comparison_page(const Comparison& comparison, const std::filesystem::path& folder);
 
-// Bishop & Weimer's timings on a MicroVAX-II beside what the operations counted say, scaled by one
-// factor: the seconds an operation took in setting up their Taylor series.
+// Bishop & Weimer's timings on a MicroVAX-II beside times from operation counts. The time of an
+// operation is the one that makes the setup of their Taylor series take the printed seconds.
 std::string microvax_text();
 
 }  // namespace phongpipe

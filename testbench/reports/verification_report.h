@@ -1,4 +1,4 @@
-// What a verification says: on the screen, as JSON for programs, and as pictures.
+// Reports of a verification: on the screen, as JSON for programs, and as pictures.
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@
 
 namespace phongpipe {
 
-// Colours and words around a result.
+// Style of a report on the screen.
 struct ReportStyle {
   bool color = false;
   bool verbose = false;
-  std::string options;            // of the command line that the result came from
+  std::string options;            // command-line options that the result came from
   std::vector<std::string> more;  // files that were written, for the last line
 };
 
-// The answer in five lines, or a line each where there are several; failures are expanded. With
-// `verbose` all that was measured follows.
+// The answer in five lines, or in one line for one of several results; failures are shown in
+// detail. With `verbose`, all measurements follow.
 std::string report_text(const VerificationResult& result, const ReportStyle& style);
 std::string report_line(const VerificationResult& result, const ReportStyle& style);
 

@@ -1,4 +1,4 @@
-// What a Verilated pixel_datapath, built as a shared library, offers to the program that loads it.
+// Interface of a Verilated pixel_datapath, built as a shared library, to the program that loads it.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,9 @@ struct RtlSpan {
   std::uint8_t first_pass, step_diffuse, step_specular, highlight;
 };
 
-// The ports, for one clock. Outputs are as they stand before its edge.
+// The ports in one clock. Outputs are as they stand before the clock edge.
 struct RtlPorts {
-  const RtlSpan* span;  // span_valid where not null; must not change until span_ready
+  const RtlSpan* span;  // span_valid if not null; must not change until span_ready
   std::uint8_t reset, pixel_ready, rom_write;
   std::uint16_t rom_address;
   std::uint16_t rom_data[3];
@@ -42,8 +42,8 @@ struct RtlInterface {
   void* (*create)();
   void (*destroy)(void* rtl);
   void (*clock)(void* rtl, RtlPorts* ports);
-  // Spans back to back with the output always ready; returns the clocks until the last pixel has
-  // left. `pixels` has room for all of them.
+  // Runs spans back to back with the output always ready; returns the clocks until the last pixel
+  // has left. `pixels` must have room for all of them.
   std::uint64_t (*run)(void* rtl, const std::uint8_t* cue_color, const RtlSpan* spans,
                        std::size_t count, RtlPixel* pixels);
 };

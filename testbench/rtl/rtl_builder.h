@@ -9,12 +9,13 @@
 
 namespace phongpipe {
 
-// The files of a folder that RTL is built from, sorted: .sv and .svh, not those of subfolders.
-// Throws InputError where there is no .sv.
+// The RTL source files in a folder, .sv and .svh, sorted, without subfolders. Throws InputError if
+// there is no .sv file.
 std::vector<std::filesystem::path> rtl_sources(const std::filesystem::path& folder);
 
-// Makes `library` of the sources in a folder; it appears whole or not at all, also where two build
-// at once. Any paths will do. Throws ToolError with the first complaint of the tool that failed.
+// Builds `library` from the sources in a folder. The file appears whole or not at all, even if two
+// processes build it at once. Any characters in paths are allowed. Throws ToolError with the first
+// error message of the tool that failed.
 void build_rtl(const DatapathConfiguration& configuration, const std::filesystem::path& sources,
                const std::filesystem::path& library);
 

@@ -1,5 +1,5 @@
-// The Verilated pixel_datapath of one configuration, as a shared library: found where it was built
-// beforehand, else built from the installed RTL and kept for the next time.
+// The Verilated pixel_datapath of one configuration, as a shared library. It is loaded if it was
+// built before, else built from the installed RTL and kept.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,13 @@
 namespace phongpipe {
 
 struct RtlBuildOptions {
-  std::filesystem::path sources;      // of the RTL; empty: the installed one
+  std::filesystem::path sources;      // folder of the RTL; empty: the installed one
   std::filesystem::path destination;  // where a new library is kept; empty: the user's cache
-  std::function<void(const std::string&)> progress;  // told what is being built, if anything is
+  std::function<void(const std::string&)> progress;  // called with what is being built, if anything
 };
 
-// Loads, after building if need be. Throws InputError where there are no sources, ToolError where
-// they cannot be built or the library cannot be loaded.
+// Loads the library, after building it if necessary. Throws InputError if there are no sources,
+// ToolError if building or loading fails.
 class RtlLibrary {
  public:
   RtlLibrary(const DatapathConfiguration& configuration, const RtlBuildOptions& options);
@@ -38,7 +38,7 @@ class RtlLibrary {
 
 RtlSpan to_rtl(const Span& span);
 
-// One instance of the RTL behind the ports the SystemC pipeline drives.
+// One instance of the RTL, behind the ports that the SystemC pipeline drives.
 class RtlDatapath : public ClockedDatapath {
  public:
   explicit RtlDatapath(const RtlLibrary& library, const OutputColor& cue_color = {});

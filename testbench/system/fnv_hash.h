@@ -1,4 +1,4 @@
-// FNV-1a, 64 bits, over any sequence of words: tells whether two runs are the same.
+// FNV-1a, 64 bits, over any sequence of words, to compare two runs.
 #pragma once
 
 #include <cstdint>

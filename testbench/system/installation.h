@@ -1,5 +1,5 @@
-// Where the program finds its RTL, presets, technology cards and scenes: beside itself, in the
-// build tree as in an installed prefix.
+// Where the program finds its RTL, presets, technology cards and scenes: beside itself, both in the
+// build tree and in an installed prefix.
 #pragma once
 
 #include <filesystem>
@@ -11,16 +11,17 @@ namespace phongpipe {
 struct Installation {
   std::filesystem::path hardware;  // RTL, presets/, technology/
   std::filesystem::path rtl_shim;  // sources compiled with the Verilated RTL
-  std::filesystem::path include;   // what they include of model/
+  std::filesystem::path include;   // the headers of model/ that they include
   std::filesystem::path scenes;
   std::filesystem::path libraries;  // Verilator's runtime, and RTL that was built beforehand
 };
 
-// Throws InputError where the program has been moved away from its files.
+// Throws InputError if the program has been moved away from its files.
 const Installation& installation();
 
-// `name` as a file if there is one that is not a folder, else folder/name.toml. Throws InputError
-// that lists what the folder and its subfolders hold. `what` is "preset", "technology card", ….
+// The file `name` if it exists and is not a folder, else folder/name.toml. If neither exists,
+// throws InputError that lists the contents of the folder and its subfolders. `what`: "preset",
+// "technology card", …, for messages.
 std::filesystem::path find_named(const std::string& name, const std::filesystem::path& folder,
                                  const std::string& what);
 

@@ -1,5 +1,5 @@
-// Memory for pictures, in large pages where the system has them: the first touch of each page of
-// 4 kB can take as long as the pixels on it.
+// Memory for pictures, in large pages if the system has them: the first touch of each page of 4 kB
+// can take as long as its pixels.
 #pragma once
 
 #include <sys/mman.h>
@@ -9,7 +9,7 @@
 
 namespace phongpipe {
 
-// To be given back by std::free().
+// Release it with std::free().
 inline void* allocate_large(std::size_t bytes) {
   constexpr std::size_t kLargePage = std::size_t{2} << 20;
   if (bytes < kLargePage) return std::malloc(bytes);
@@ -19,7 +19,7 @@ inline void* allocate_large(std::size_t bytes) {
   return memory;
 }
 
-// For containers.
+// Allocator of such memory for containers.
 template <typename T>
 struct LargeAllocator {
   using value_type = T;
@@ -27,7 +27,7 @@ struct LargeAllocator {
   LargeAllocator() = default;
   template <typename U>
   LargeAllocator(const LargeAllocator<U>&) {
-  }  // NOLINT(google-explicit-constructor): as containers want
+  }  // NOLINT(google-explicit-constructor): as containers require
 
   T* allocate(std::size_t count) {
     void* const memory = allocate_large(count * sizeof(T));

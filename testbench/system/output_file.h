@@ -1,5 +1,5 @@
-// What the program writes: files that are whole or not there, and a standard output that is not
-// lost without a word.
+// Output of the program: files that are whole or absent, and standard output whose loss is
+// reported.
 #pragma once
 
 #include <filesystem>
@@ -7,17 +7,18 @@
 
 namespace phongpipe {
 
-// A file is written under another name and then renamed, so that none is left half written; it
+// Writes a file under another name and renames it, so that it is never left half written. The file
 // keeps its permissions, and a symbolic link to it stays one. Devices, pipes and sockets, and the
-// files that are our standard output or error, are written through. Throws InputError where nothing
-// can be written to that place, ToolError where the disk is full or the write fails.
+// files that are our standard output or error, are written directly. Throws InputError if nothing
+// can be written to that place, ToolError if the disk is full or the write fails.
 void write_text(const std::filesystem::path& file, std::string_view text);
 
-// Throws InputError where write_text() would not find a place to write to; changes nothing. To be
-// called before long work.
+// Throws InputError if write_text() could not write to that place; changes nothing. Call it before
+// long work.
 void check_writable(const std::filesystem::path& file);
 
-// To standard output, at once. Throws ToolError where that, or what was printed before, is lost.
+// Prints to standard output at once. Throws ToolError if this text, or text printed before, is
+// lost.
 void print_or_throw(std::string_view text);
 
 }  // namespace phongpipe

@@ -1,5 +1,5 @@
-// Other processes: programs that are run for their output, and our own work done in a child. None
-// of them outlives the thread that started it, however that ends.
+// Other processes: programs run for their output, and our own work done in a child. None of them
+// outlives the thread that started it, however that thread ends.
 #pragma once
 
 #include <filesystem>
@@ -15,14 +15,14 @@ struct ProcessOutput {
   int start_error = 0;  // errno where the program could not be started
 };
 
-// Runs the program in `folder`, or in the current one, without an input. When we end, it ends, with
-// all that it has started.
+// Runs the program in `folder`, or in the current folder if it is empty, without input. When our
+// process ends, the program and all that it has started are killed.
 ProcessOutput run_process(const std::vector<std::string>& command,
                           const std::filesystem::path& folder = {});
 
-// Runs `work` in a child process, at the same time as the caller goes on, and hands back the text
-// it returns. An InputError, ToolError or std::bad_alloc of the child is thrown again by get(), any
-// other exception as a std::runtime_error.
+// Runs `work` in a child process, in parallel with the caller. get() returns the text of `work`, or
+// throws again an InputError, ToolError or std::bad_alloc of the child, and any other exception as
+// std::runtime_error.
 class Child {
  public:
   explicit Child(const std::function<std::string()>& work);
@@ -30,7 +30,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  std::string get();  // waits; once
+  std::string get();  // waits for the child; call it once
 
  private:
   int process_ = -1;

@@ -1,5 +1,5 @@
-// Random numbers that are the same on every machine and with every compiler, as the distributions
-// of the standard library are not.
+// Random numbers that are the same on every machine and with every compiler, unlike those of the
+// standard library's distributions.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ class Random {
 
   std::int64_t bits() { return static_cast<std::int64_t>(generator_()); }  // 64 of them
 
-  // From low to high, both included and all as likely.
+  // From low to high, both included and equally likely.
   int integer(int low, int high) {
     const auto count = static_cast<std::uint64_t>(std::int64_t{high} - low) + 1;
     const std::uint64_t surplus = (0 - count) % count;  // 2^64 modulo count
@@ -25,7 +25,7 @@ class Random {
     while (value < surplus) value = generator_();
     return static_cast<int>(low + static_cast<std::int64_t>(value % count));
   }
-  // In steps of 2^-53 of the range. The compiler may not choose how often this rounds: once.
+  // In steps of 2^-53 of the range. std::fma rounds exactly once, whatever the compiler.
   double uniform(double low, double high) {
     const double share = std::ldexp(static_cast<double>(generator_() >> 11), -53);
     return std::fma(high - low, share, low);
@@ -37,7 +37,7 @@ class Random {
       if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
     }
   }
-  Vec3 unit_near(const Vec3& axis, double largest_degrees) {  // evenly in angle, not in area
+  Vec3 unit_near(const Vec3& axis, double largest_degrees) {  // uniform in angle, not in area
     const Vec3 side = axis.cross(unit()).normalized();
     const double angle = uniform(0, largest_degrees) * 3.14159265358979323846 / 180;
     return std::cos(angle) * axis + std::sin(angle) * side;

@@ -1,4 +1,5 @@
-// Records with fields() to and from JSON: how they travel between processes and into result files.
+// Conversion of records with fields() to and from JSON, for pipes between processes and for result
+// files.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -39,7 +40,7 @@ void from_json(const Json& j, Record& record) {
       record, [&j](std::string_view name, auto& value) { j.at(std::string(name)).get_to(value); });
 }
 
-// For a pipe: compact, and doubles to the bit.
+// For a pipe: compact, with exact doubles.
 template <typename Record>
 std::string to_bytes(const Record& record) {
   std::string bytes;

@@ -1,4 +1,4 @@
-// What people see on a terminal: progress, colours, and text from outside made harmless.
+// Output on a terminal: progress, colours, and text from outside made harmless.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace phongpipe {
 
-// Shows what is being done while it is, on a terminal; silent in a pipe.
+// Shows the current step on a terminal; silent in a pipe.
 class Progress {
  public:
   Progress();
@@ -24,8 +24,8 @@ class Progress {
 
 bool color_wanted();  // standard output is a terminal, and NO_COLOR is not set
 
-// Text from outside, such as the name of a file, as it may be shown on a terminal and stand in a
-// JSON string: control characters as \n, \t or \x1b, bytes that are not UTF-8 as \xff.
+// Text from outside, such as the name of a file, made safe for a terminal and for a JSON string:
+// control characters become \n, \t or \x1b, and bytes that are not UTF-8 become \xff.
 std::string printable(std::string_view text);
 
 }  // namespace phongpipe

@@ -1,4 +1,5 @@
-// A tool or the machine failed (compiler, disk, memory), told in one line with what to look at.
+// Failure of a tool or the machine (compiler, disk, memory), described in one line with what to
+// look at.
 #pragma once
 
 #include <stdexcept>

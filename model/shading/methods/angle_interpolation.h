@@ -1,7 +1,7 @@
-// Interpolation of angles (Mortensen, OTMPHONG.DOC, 1995): the angle between normal and light,
-// found at the corners by the inverse cosine and held in a byte, changes linearly over the
-// triangle; a table turns it into a cosine. The highlight is cosⁿ of the same angle, as if the eye
-// stood at the light, and is lost inside a triangle whose corners have (nearly) equal angles.
+// Interpolation of angles (Mortensen, OTMPHONG.DOC, 1995): the angle between normal and light is
+// computed at the corners by the inverse cosine, stored in a byte and interpolated linearly; a
+// table converts it to a cosine. The highlight is cosⁿ of the same angle, as if the eye were at the
+// light. It is lost inside a triangle whose corners have (nearly) equal angles.
 #pragma once
 
 #include "model/shading/methods/forward_differences.h"
@@ -10,13 +10,13 @@
 
 namespace phongpipe {
 
-constexpr int kRightAngle = 255;  // the byte of 90°: facets the light reaches have no larger angles
+constexpr int kRightAngle = 255;  // the byte of 90°, the largest angle of a lit facet
 
-// The byte, to the nearest, of the angle with this cosine; beyond 90° it stays at 90°.
+// The angle with this cosine as a byte, rounded to nearest; angles beyond 90° saturate.
 double angle_byte(double cosine);
-Recorded angle_byte(const Recorded& cosine);  // a table of the inverse cosine
+Recorded angle_byte(const Recorded& cosine);  // one read of a table
 
-const LookupTable& cosine_table();  // by the byte
+const LookupTable& cosine_table();  // addressed by the byte
 
 template <typename T>
 Linear<T> interpolated_angle(const ShadingInput<T>& in, const Interpolator<T>& interpolate,
@@ -29,8 +29,8 @@ Linear<T> interpolated_angle(const ShadingInput<T>& in, const Interpolator<T>& i
   return interpolate(angle[0], angle[1], angle[2]);
 }
 
-// The source's own form: one angle. Its palette gives the colour in place of the cosine, so that
-// the full model costs no more than the diffuse one.
+// The source's own form, with one angle. Its palette holds colours instead of cosines, so the full
+// model costs no more than the diffuse one.
 template <typename T, Parts kParts>
 class AngleInterpolation {
  public:
@@ -49,8 +49,8 @@ class AngleInterpolation {
   ForwardDifferences<T, 1> step_;
 };
 
-// With a second angle, between normal and halfway vector: Phong's highlight where it belongs. Not
-// in the source.
+// With a second angle, between normal and halfway vector, which places Phong's highlight correctly.
+// Not in the source.
 template <typename T, Parts kParts>
 class TwoAngleInterpolation {
  public:

@@ -2,7 +2,7 @@
 // polynomials along the span, p linear and q quadratic, and the cosine is p/√q. Exact Phong
 // shading.
 //
-// Hast's E = N·N at the start of a span is kept as it comes; the source sets it to 1 (see ERRATA).
+// E = N·N at the start of a span keeps its value here; Hast sets it to 1 (see ERRATA).
 #pragma once
 
 #include "model/shading/methods/forward_differences.h"
@@ -10,7 +10,7 @@
 
 namespace phongpipe {
 
-// What every form of Duff's method steps.
+// The polynomials that every form of Duff's method steps.
 template <typename T>
 class DuffSpan {
  public:
@@ -35,7 +35,7 @@ class DuffSpan {
   Quadratic<T> square_;
 };
 
-// How 1/√q is taken and used.
+// How 1/√q is computed and used.
 enum class Root {
   quotients,   // p/√q: 1 division for each cosine
   reciprocal,  // s = 1/√q, p·s: Hast, section 4.2, after Blinn

@@ -1,5 +1,6 @@
 // Phong shading as Bishop & Weimer count it: the normal is stepped as a vector and normalised at
-// each pixel. With a local viewer or a light at a distance their vectors are too.
+// each pixel. So are the eye vector of a local viewer and the vector to a light at a finite
+// distance.
 #pragma once
 
 #include "model/shading/methods/forward_differences.h"
@@ -7,7 +8,7 @@
 
 namespace phongpipe {
 
-// q(x, y) along a span: 3 additions a pixel.
+// Steps a vector q(x, y) along a span: 3 additions a pixel.
 template <typename T>
 class VectorDifferences {
  public:
@@ -49,7 +50,7 @@ class ExactPhong {
   VectorDifferences<T> step_;
 };
 
-// What varies over the triangle, and how the highlight is defined.
+// Which vectors vary over the triangle, and how the highlight is defined.
 struct PhongForm {
   bool local_viewer = false;
   bool light_at_distance = false;
@@ -62,7 +63,8 @@ Vector3<T> unit(const Vector3<T>& v) {
   return v * (T(1) / sqrt(v.dot(v)));
 }
 
-// The general case: what varies is interpolated and normalised at each pixel like the normal.
+// The general case: vectors that vary are interpolated, and normalised at each pixel like the
+// normal.
 template <typename T, Parts kParts>
 class VaryingPhong {
  public:

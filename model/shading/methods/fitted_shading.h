@@ -1,5 +1,5 @@
-// Bishop & Weimer's pixel loop with other quadratics than their Taylor series: what the setup
-// engine makes of a triangle by SeriesFit. The same 2 additions a pixel for each component.
+// Bishop & Weimer's pixel loop with the quadratics of a SeriesFit instead of their Taylor series.
+// Also 2 additions a pixel for each component.
 #pragma once
 
 #include <cmath>
@@ -42,7 +42,7 @@ class FittedSeries {
     return result;
   }
 
-  // Opposed normals leave no number behind.
+  // With opposite normals, coefficients are not finite.
   bool degenerate(double x, double y, int) const {
     if constexpr (std::is_same_v<T, double>) {
       return !std::isfinite(series_.light(x, y)) ||

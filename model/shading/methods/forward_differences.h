@@ -15,7 +15,7 @@ class ForwardDifferences {
   ForwardDifferences() = default;
   explicit ForwardDifferences(const std::array<T, kDegree + 1>& differences) : d_(differences) {}
 
-  // The value here; then one pixel to the right.
+  // Returns the value at this pixel, and steps one pixel to the right.
   T next() {
     const T value = d_[0];
     for (std::size_t i = 0; i < kDegree; ++i) d_[i] += d_[i + 1];
@@ -26,7 +26,7 @@ class ForwardDifferences {
   std::array<T, kDegree + 1> d_;
 };
 
-// At (x, y) and rightwards.
+// The differences at (x, y), for steps to the right.
 template <typename T>
 ForwardDifferences<T, 1> start(const Linear<T>& q, const T& x, const T& y) {
   return ForwardDifferences<T, 1>({q.a * x + q.b * y + q.c, q.a});

@@ -1,5 +1,5 @@
-// Flat and Gouraud shading (Gouraud 1971): intensities, computed once a triangle or at its corners.
-// Here of one channel and one light, ambient light aside.
+// Flat and Gouraud shading (Gouraud 1971): intensities, computed once per triangle or at its
+// corners. Here for one channel and one light, without ambient light.
 #pragma once
 
 #include "model/shading/methods/forward_differences.h"
@@ -7,7 +7,7 @@
 
 namespace phongpipe {
 
-// Under a normal of any length, `root` its length's reciprocal: two cosines, the power and a sum.
+// Intensity for a normal of any length; `root`: 1/|normal|. Two cosines, the power and a sum.
 template <typename T, Parts kParts>
 T intensity(const ShadingInput<T>& in, const Vector3<T>& normal, const T& root) {
   const T diffuse = not_negative(normal.dot(in.light) * root);
@@ -17,7 +17,7 @@ T intensity(const ShadingInput<T>& in, const Vector3<T>& normal, const T& root) 
   return diffuse;
 }
 
-// The intensity of the polygon's own normal everywhere.
+// One intensity per triangle, computed from the polygon's own normal.
 template <typename T, Parts kParts>
 class Flat {
  public:
@@ -34,7 +34,7 @@ class Flat {
   T intensity_;
 };
 
-// Interpolated linearly between the corners: 1 addition a pixel.
+// Intensity interpolated linearly between the corners: 1 addition a pixel.
 template <typename T, Parts kParts>
 class Gouraud {
  public:

@@ -1,5 +1,5 @@
-// Tables in memory: 1 read a look-up. Forming the address is free: what is stepped is scaled so
-// that its integer part addresses the table.
+// Tables in memory: 1 read per look-up. Forming the address is free: the stepped value is scaled so
+// that its integer part is the address.
 #pragma once
 
 #include <vector>

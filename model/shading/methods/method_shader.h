@@ -1,4 +1,4 @@
-// From a method's template to a TriangleShader and to its costs.
+// Makes a TriangleShader, and the costs, from a method's template.
 #pragma once
 
 #include <cmath>
@@ -10,15 +10,16 @@
 
 namespace phongpipe {
 
-// How a pixel's intensity comes from what the method gives.
+// How a pixel's intensity is computed from the method's result.
 enum class Output {
-  intensity,  // it is the intensity
+  intensity,  // the result is the intensity
   palette,    // the method's table holds intensities in place of cosines
   cosines,    // diffuse + power(highlight)
   spot,       // the same, times a power of the cosine off the axis, from a table
 };
 
-// One channel; colours scale the polynomials in set-up, so that no multiplication is left.
+// Intensity of one channel. Setup multiplies the polynomials by the colours, so no multiplication
+// is left here.
 template <typename T>
 T combine(Output output, Parts parts, const Reflection<T>& r, const Power& power) {
   T sum = r.diffuse;
@@ -27,7 +28,7 @@ T combine(Output output, Parts parts, const Reflection<T>& r, const Power& power
   return output == Output::spot ? sum * power(r.spot) : sum;
 }
 
-// Methods whose form can degenerate say so themselves.
+// Whether a method can degenerate: such a method defines degenerate().
 template <typename Method, typename = void>
 struct CanDegenerate : std::false_type {};
 template <typename Method>
@@ -43,7 +44,7 @@ class MethodShader : public TriangleShader {
     const Material& material = context.material;
     const Light& light = context.scene.lights.front();
     ambient_ = context.scene.shading.ambient_light * material.ambient;
-    // A method renders a light that fades with distance only where that fading is constant.
+    // A method renders an attenuated light only if the attenuation is constant.
     const Color color = light.type == LightType::directional
                             ? light.color
                             : Color(light.color / light.attenuation[0]);
@@ -110,7 +111,7 @@ std::unique_ptr<TriangleShader> create_shader(const ShaderContext& context) {
   return std::make_unique<MethodShader<Method<double, Parts::full>, Parts::full>>(context);
 }
 
-// `make` makes a method from a ShadingInput<Recorded>.
+// Counts the operations of a method; `make` makes it from a ShadingInput<Recorded>.
 template <typename Make>
 MethodCosts count(Output output, Parts parts, const Power& power, Make make) {
   ShadingInput<Recorded> input;

@@ -47,7 +47,7 @@ class Hybrid {
   ForwardDifferences<T, 2> r_, q_;
 };
 
-// Duff's diffuse component p/√q and eq. 17 as a quotient of its own.
+// Duff's diffuse component p/√q, and eq. 17 as a separate quotient.
 template <typename T, Parts kParts>
 class DuffEq17 {
  public:

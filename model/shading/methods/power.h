@@ -1,4 +1,4 @@
-// Ways to the power of Phong's highlight: x^n for a cosine x.
+// Ways of computing the power of Phong's highlight: x^n for a cosine x.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 namespace phongpipe {
 
 enum class PowerKind {
-  exact,    // x^n itself; no unit computes it, and counting takes it for a table read
+  exact,    // x^n itself; no unit computes it, and it is counted as a table read
   table,    // Bishop & Weimer: a table of 1,024 words, 1 read
   schlick,  // Schlick 1994: x / (n − n x + x)
   lyon4,    // Lyon 1993: (1 − (n/γ)(1 − x))^γ, 0 below x = 1 − γ/n, by squaring; γ = 4

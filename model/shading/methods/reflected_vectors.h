@@ -1,10 +1,11 @@
 // Point light, spotlight and fixed viewpoint by reflection (Hast, Barrera & Bengtsson 2001,
-// sections 5 and 6). The vector W to the light or to the eye changes linearly over the triangle; a
-// unit vector s is mirrored about H = s + W, as reflection shading does for the normal:
+// sections 5 and 6). The vector W to the light or to the eye is linear over the triangle; a unit
+// vector s is mirrored about H = s + W, as reflection shading does for the normal:
 //     W' = 2 (H·s)/(H·H) H − s                                                (36, 38)
-// H depends on the length of W. The source leaves it in scene units; here W is divided by its
-// length at the triangle's origin first (see ERRATA). W' = U/(H·H) with U quadratic along the span,
-// so that every cosine is a quotient of polynomials, of fourth degree where normal and W meet.
+// H depends on the length of W. The source leaves W in scene units; here W is divided by its length
+// at the triangle's origin first (see ERRATA). W' = U/(H·H) with U quadratic along the span, so
+// every cosine is a quotient of polynomials. They have fourth degree in the cosine between normal
+// and W.
 #pragma once
 
 #include "model/shading/methods/reflection_shading.h"
@@ -17,7 +18,7 @@ struct MirroredSpan {
   std::array<Vector3<T>, 3> u;
   std::array<T, 3> q;
 
-  // s is mirrored about h at (x, y) and rightwards.
+  // Mirrors s about h, from (x, y) to the right.
   MirroredSpan(const Linear<Vector3<T>>& h, const Vector3<T>& s, const T& x, const T& y) {
     const Vector3<T> k = h.a, m = h.a * x + h.b * y + h.c;
     const T ks = twice(k.dot(s)), ms = twice(m.dot(s));
@@ -62,8 +63,8 @@ class ReflectedVectors {
       half_ = interpolate(w[0], w[1], w[2]);
       const T scale = rsqrt(half_.c.dot(half_.c));
       half_ = {half_.a * scale, half_.b * scale, half_.c * scale};
-      // A spotlight has its axis and the view has its own; a point light has no direction but that
-      // at the origin.
+      // s is the axis of the spotlight or of the view; for a point light, the direction at the
+      // origin.
       axis_ = kSpot ? in.axis : kLightVaries ? half_.c : in.viewer;
       half_.c += axis_;
     }
@@ -92,7 +93,7 @@ class ReflectedVectors {
     const T n_dot_w = normal_varying_.next() * s * normal_s;
     if constexpr (kLightVaries) result.diffuse = n_dot_w;
     if constexpr (kParts == Parts::full) {
-      // R·V = 2 (N·L)(N·V) − L·V, whichever of L and V it is that varies.
+      // R·V = 2 (N·L)(N·V) − L·V, whether L or V varies.
       const T n_dot_fixed = normal_fixed_.next() * normal_s;
       if constexpr (!kLightVaries) result.diffuse = n_dot_fixed;
       result.highlight = twice(n_dot_w * n_dot_fixed) - varying_fixed_.next() * s;
@@ -101,7 +102,7 @@ class ReflectedVectors {
     return result;
   }
 
-  // H·H < ¼ |N|² or |W|², or W turned by more than 90° from s, where s mirrored may point
+  // Whether H·H < ¼ |N|² or ¼ |W|², or W is more than 90° from s, where the mirrored s may point
   // backwards.
   bool degenerate(double x, double y, int length) const {
     if (falls_below(square(normal_half_), x, y, length, 0.25)) return true;

@@ -1,6 +1,6 @@
 // Reflection shading (Hast, Barrera & Bengtsson 2001, section 4): the polygon's unit normal n is
-// mirrored about H = n + N, which gives a vector that is always of unit length and points about
-// where the interpolated N does (exactly, where N is of unit length too):
+// mirrored about H = n + N. The result always has unit length, and the direction of the
+// interpolated N approximately, or exactly if N has unit length too:
 //     N' = 2 (H·n)/(H·H) H − n                                                   (27)
 //     N'·v = (2 (H·n)(H·v) − (n·v)(H·H)) / (H·H)                              (30–32)
 // No root; numerator and denominator are quadratic along the span.
@@ -37,7 +37,8 @@ class ReflectedNormal {
   }
   const Quadratic<T>& squared() const { return square_; }
 
-  // Where N opposes n, H vanishes and N' means nothing: H·H < ¼ |N|², with |N| at most 1.
+  // Where N is opposite to n, H vanishes and N' is undefined. Tested as H·H < ¼ |N|², with |N| at
+  // most 1.
   bool degenerate(double x, double y, int length) const {
     return falls_below(square_, x, y, length, 0.25);
   }
@@ -51,7 +52,7 @@ class ReflectedNormal {
   Quadratic<T> square_;
 };
 
-// How the highlight is found.
+// How the highlight is computed.
 enum class ReflectionHighlight {
   quotient,  // N'·H, a quotient like N'·L
   blinn,     // both numerators times 1/(H·H)

@@ -1,8 +1,8 @@
-// What a shading method is given and what it gives back, over the scalar: with double the values of
-// a triangle, with Recorded the operations executed.
+// Input and result of a shading method, templates over the scalar: double computes values, Recorded
+// records the operations executed.
 //
 // Not counted, as in the sources: comparisons and clamps, conversions between formats, changes of
-// sign and of exponent, and what is the same for a whole frame (unit light, eye and halfway
+// sign and of exponent, and values that are constant over a frame (unit light, eye and halfway
 // vectors).
 #pragma once
 
@@ -20,7 +20,7 @@ class Power;
 template <typename T>
 struct ShadingInput {
   std::array<T, 3> x, y;               // corners, in pixels from the origin, a pixel centre
-  std::array<Vector3<T>, 3> normal;    // unit, shorter where clipping made the corner
+  std::array<Vector3<T>, 3> normal;    // unit, or shorter if clipping made the corner
   std::array<Vector3<T>, 3> eye;       // surface → eye, at its true length
   std::array<Vector3<T>, 3> to_light;  // surface → light; true length unless the light is infinite
   Vector3<T> face;                     // the polygon's own normal: unit, on the side of the normals
@@ -33,7 +33,7 @@ struct ShadingInput {
   const Power* power = nullptr;  // of the material
 };
 
-// The first light at a pixel.
+// A method's result for the first light at a pixel.
 template <typename T>
 struct Reflection {
   T diffuse = 0;    // N·L, or the whole intensity from a method that shades by intensities
@@ -54,7 +54,7 @@ Linear<Vector3<T>> interpolated_normal(const ShadingInput<T>& in) {
   return interpolator(in)(in.normal[0], in.normal[1], in.normal[2]);
 }
 
-// Clamps and roundings are choices of a comparator or of wiring: free, and nothing to record.
+// A clamp is a choice of a comparator or of wiring: free, and not recorded.
 inline double not_negative(double x) {
   return x > 0 ? x : 0;
 }

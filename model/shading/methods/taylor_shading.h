@@ -41,8 +41,8 @@ class TaylorSeries {
     return result;
   }
 
-  // Opposed normals, or an eye opposite the light: the vector at the origin, by whose length the
-  // series is divided, nearly vanishes.
+  // Opposite normals, or an eye opposite to the light: the vector at the origin nearly vanishes,
+  // and the series divides by its length.
   bool degenerate(double, double, int) const {
     constexpr double kLeastNormal = 0.1, kLeastHalfway = 0.01;
     if (!(normal_.norm() > kLeastNormal)) return true;

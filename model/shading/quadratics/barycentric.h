@@ -1,6 +1,6 @@
-// Quadratics over a triangle in its barycentric coordinates. The points a fit samples are fixed in
-// these, so that a fit is a fixed linear map and knows neither x nor y; one change of basis turns
-// its result into the T_i.
+// Quadratics over a triangle in barycentric coordinates. The sample points of a fit are fixed in
+// these coordinates, so a fit does not depend on x and y. One change of basis turns its result into
+// the T_i.
 #pragma once
 
 #include <array>
@@ -9,14 +9,15 @@
 
 namespace phongpipe {
 
-// A quadratic by its values at the corners and at the middles of the edges; edge i faces corner i.
+// A quadratic, given by its values at the corners and at the midpoints of the edges. Edge i is
+// opposite corner i.
 template <typename T>
 struct SixValues {
   std::array<T, 3> corner, middle;
 };
 
-// The barycentric coordinates u and v of corners 1 and 2 as functions of x and y, and their
-// products.
+// Converts a quadratic in barycentric coordinates to x and y. `u` and `v`: the coordinates of
+// corners 1 and 2 as functions of x and y.
 template <typename T>
 class BarycentricBasis {
  public:
@@ -52,7 +53,7 @@ class BarycentricBasis {
 
  private:
   Linear<T> u_, v_;
-  std::array<T, 3> xx_, xy_, yy_;  // what u², uv and v² have of x², xy and y²
+  std::array<T, 3> xx_, xy_, yy_;  // coefficients of x², xy, y² in u², uv, v²
 };
 
 }  // namespace phongpipe

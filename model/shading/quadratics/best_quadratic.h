@@ -1,4 +1,5 @@
-// The limit for six numbers a triangle. Too slow for a setup engine; for comparing fits with.
+// The best quadratic over a triangle: the limit of what six coefficients can do. Too slow for a
+// setup engine; it serves for comparison with the fits.
 #pragma once
 
 #include <vector>
@@ -12,20 +13,20 @@ struct CosineSample {
   double cosine;
 };
 
-// Errors are those of the displayed power, max(0, cosine)^power up to 1, full scale 1.
+// Errors are those of the displayed power max(0, cosine)^power, clamped to 1; full scale is 1.
 struct BestQuadratic {
   SixValues<double> values;
   double error;        // largest over the samples
-  double lower_bound;  // no quadratic has a smaller one
+  double lower_bound;  // no quadratic has a smaller error
 };
 
-// An error of the power allows the cosine a band, so that each bisection of the error asks whether
-// a quadratic stays within bands: minimax, weighted by what the power minds. Until the error is
-// within 2 % of the limit or at most `good_enough`.
+// Weighted minimax fit, by bisection of the error. A given error of the power allows each cosine a
+// band; each step decides whether a quadratic lies within all bands. Stops when the error is within
+// 2 % of the limit or at most `good_enough`.
 BestQuadratic best_quadratic(const std::vector<CosineSample>& samples, double power,
                              double good_enough = 0);
 
-// At even distances, `steps` to an edge: the cosine by `cosine(u, v)`.
+// Samples of `cosine(u, v)` at equal distances, `steps` intervals to an edge.
 template <typename Cosine>
 std::vector<CosineSample> dense_samples(int steps, const Cosine& cosine) {
   std::vector<CosineSample> samples;

@@ -1,7 +1,7 @@
 // Values of N·M / (|N||M|) at fixed points of a triangle. With N and M linear, N·N, N·M and M·M are
-// quadratic forms of the barycentric coordinates: a few dot products at the corners give them
-// everywhere, and a point costs additions and a 1/√. Points are taken at whole multiples of their
-// coordinates, as the cosine does not depend on the lengths.
+// quadratic forms of the barycentric coordinates: a few dot products at the corners determine them,
+// and each point costs additions and a 1/√. Forms are evaluated at whole multiples of the
+// coordinates, because the cosine does not depend on the lengths of N and M.
 #pragma once
 
 #include <array>
@@ -11,16 +11,16 @@
 
 namespace phongpipe {
 
-// Where a fit looks: 0–2 the corners, 3–5 the middles of the edges that face them, 6–8 half way
+// Sample points of the fits: 0–2 the corners, 3–5 the midpoints of the opposite edges, 6–8 half way
 // from the centroid to the corners, 9 the centroid.
 constexpr std::size_t kSixPoints = 6, kNinePoints = 9, kTenPoints = 10;
 
 template <typename T, std::size_t points>
 using Values = std::array<T, points>;
 
-// Forms at the fixed points, times 1 at corners, 2^d at middles, 6^d at inner points and 3^d at the
-// centroid, d the degree. What is computed from two corners is the same to the bit whichever comes
-// first: triangles that share an edge agree on it.
+// Samples of forms of degree d at the fixed points, scaled by 1 at corners, 2^d at midpoints, 6^d
+// at inner points and 3^d at the centroid. A sample computed from two corners is the same to the
+// bit in either order, so triangles that share an edge agree on it.
 template <typename T>
 struct LinearForm {
   std::array<T, 3> corner;
@@ -95,11 +95,11 @@ class NormalSamples {
  public:
   explicit NormalSamples(const std::array<Vector3<T>, 3>& normal)
       : NormalSamples(normal, squared_length(normal).template sampled<points>()) {}
-  // With the form that is known already.
+  // For a known |N|².
   NormalSamples(const std::array<Vector3<T>, 3>& normal, const QuadraticForm<T>& squared_length)
       : NormalSamples(normal, squared_length.template sampled<points>()) {}
-  // For vectors that may vanish, where forms are nothing but the rounding of their terms: squared
-  // lengths count as no less than `least` times the sum of those at the corners.
+  // For vectors that may vanish, whose forms are then only rounding errors: squared lengths are
+  // raised to at least `least` times the sum of those at the corners.
   NormalSamples(const std::array<Vector3<T>, 3>& normal, double least)
       : NormalSamples(normal, not_below(least, squared_length(normal).template sampled<points>())) {
   }
@@ -116,14 +116,14 @@ class NormalSamples {
     return result;
   }
 
-  // N·M / |N| at the first points, M constant and of unit length.
+  // N·M / |N| at the first points, for a constant unit M.
   template <std::size_t first = points>
   Values<T, first> cosines(const Vector3<T>& m) const {
     const LinearForm<T> form = {{normal_[0].dot(m), normal_[1].dot(m), normal_[2].dot(m)}};
     return times(form.template sampled<first>(), inverse_length_);
   }
 
-  // N·M / (|N||M|), M linear between the corners.
+  // N·M / (|N||M|) at the first points, for M linear between the corners.
   template <std::size_t first = points>
   Values<T, first> cosines(const std::array<Vector3<T>, 3>& m) const {
     return cosines<first>(NormalSamples<T, first>(m));

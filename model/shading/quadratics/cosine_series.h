@@ -1,5 +1,5 @@
-// Quadratics in x and y for N·L and for the highlight's N·H of a triangle, L constant, H constant
-// or linear: the paper's reflection.
+// Quadratics in x and y for N·L and N·H over a triangle, with L constant and H constant or linear:
+// the paper's reflection.
 #pragma once
 
 #include <algorithm>
@@ -9,11 +9,11 @@
 
 namespace phongpipe {
 
-// M: Vector3, a unit vector everywhere, or Corners.
+// M, the type of the halfway vector: Vector3 if it is one unit vector everywhere, else Corners.
 template <typename T, typename M>
 class CosineReflection {
  public:
-  // `squared_length`: of the normals, where it is known already.
+  // `squared_length`: |N|² over the triangle, if known already.
   CosineReflection(const Corners<T>& normal, const Vector3<T>& to_light, const M& halfway,
                    const QuadraticForm<T>* squared_length = nullptr)
       : normal_(normal), to_light_(to_light), halfway_(halfway), squared_length_(squared_length) {}
@@ -67,7 +67,7 @@ class CosineReflection {
   const QuadraticForm<T>* squared_length_;
 };
 
-// `halfway`: one unit vector, or one at each corner. `sharpness`: shininess − 1.
+// `halfway`: one unit vector, or a vector at each corner. `sharpness`: shininess − 1.
 template <typename T, typename M>
 CosineSeries<T> fit_series(SeriesFit fit, const Interpolator<T>& interpolate,
                            const Corners<T>& normal, const Vector3<T>& to_light, const M& halfway,

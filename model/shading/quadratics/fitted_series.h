@@ -1,8 +1,9 @@
-// Each SeriesFit of any reflection of a light over a triangle. A Reflection has
-//   expanded(interpolate, wanted)     both Taylor series,
-//   sampled<lights, highlights>()     both at the first fixed points (cosine_samples.h), 0: not,
-//   at_centre(focus), highlight(…)    its vectors and its highlight at the centre of a focus,
-//   around(focus, …)                  itself over the focus's smaller triangle.
+// Fits the two series of a light's reflection over a triangle by any SeriesFit. A Reflection has
+//   expanded(interpolate, wanted)     the Taylor series of light and highlight,
+//   sampled<lights, highlights>()     light and highlight at that many first sample points
+//                                     (cosine_samples.h), 0 for none,
+//   at_centre(focus), highlight(…)    its vectors, and its highlight, at the centre of a focus,
+//   around(focus, …)                  the same reflection over the smaller triangle of a focus.
 #pragma once
 
 #include "model/shading/quadratics/focus.h"
@@ -25,8 +26,9 @@ struct ReflectedSamples {
 
 namespace detail {
 
-// What a weight is divided by at each kind of point, corners 1, and the power of the sensitivity
-// that it is divided by. Chosen for the smallest largest errors relative to the best quadratics'.
+// The weight of a squared residual is sensitivity^kSensitivityExponent, divided by the spread of
+// its kind of point: 1 at corners, else these. Chosen for the smallest largest error relative to
+// that of the best quadratics.
 constexpr double kMiddleSpread = 0.62, kInnerSpread = 0.45, kCentreSpread = 0.38;
 constexpr double kSensitivityExponent = 1.9;
 
@@ -35,7 +37,7 @@ SixValues<T> through(const Values<T, kSixPoints>& f) {
   return {{f[0], f[1], f[2]}, {f[3], f[4], f[5]}};
 }
 
-// Residuals count by the power's sensitivity to them.
+// Fits ten points with residuals weighted by the sensitivity of the power.
 template <typename T>
 SixValues<T> fit_sensitive(const Values<T, kTenPoints>& f, const T& sharpness) {
   const Fading<T> fading(sharpness * T(kSensitivityExponent / 8));
@@ -48,7 +50,7 @@ SixValues<T> fit_sensitive(const Values<T, kTenPoints>& f, const T& sharpness) {
   return fit_ten_points(f, spread);
 }
 
-// A vector is one everywhere, then a unit vector, or linear between the corners.
+// For a vector that is one unit vector everywhere, and for one that is linear between the corners.
 template <typename T>
 Vector3<T> vector_at_centre(const Focus<T>&, const Vector3<T>& v) {
   return v;
@@ -76,7 +78,7 @@ ReflectedSamples<T, lights, highlights> wanted_samples(const Reflection& reflect
   return result;
 }
 
-// `highlights`: over the whole triangle.
+// `highlights`: samples over the whole triangle.
 template <typename T, typename Reflection>
 Quadratic<T> focused_highlight(const Interpolator<T>& interpolate, const Reflection& reflection,
                                const Values<T, kSixPoints>& highlights, const T& sharpness) {
@@ -91,7 +93,7 @@ Quadratic<T> focused_highlight(const Interpolator<T>& interpolate, const Reflect
 
 }  // namespace detail
 
-// `sharpness`: how much faster than the cosine the highlight fades, shininess − 1.
+// `sharpness`: shininess − 1.
 template <typename T, typename Reflection>
 CosineSeries<T> fitted_series(SeriesFit fit, const Interpolator<T>& interpolate,
                               const Reflection& reflection, const T& sharpness,

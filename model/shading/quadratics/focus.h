@@ -1,6 +1,6 @@
-// The part of a triangle that its highlight lies in: a smaller triangle of the same shape, moved
-// towards the brightest point and shrunk as the highlight is. Fixed sample points then see the
-// highlight however small it is.
+// The part of a triangle that contains its highlight: a smaller, similar triangle, moved towards
+// the brightest point and shrunk with the highlight. Fixed sample points in it see even a small
+// highlight.
 #pragma once
 
 #include "model/shading/quadratics/sensitivity.h"
@@ -11,7 +11,8 @@ namespace phongpipe {
 template <typename T>
 class Focus {
  public:
-  // About the middle of the highlight, given its cosines over the whole triangle.
+  // Centres the smaller triangle on the highlight. `cosines`: of the highlight over the whole
+  // triangle.
   Focus(const Values<T, kSixPoints>& cosines, const T& sharpness) {
     const Fading<T> fading(sharpness * T(kCentring / 4));
     Values<T, kSixPoints> w;  // the highlight's intensity, roughly
@@ -39,7 +40,7 @@ class Focus {
 
   const T& coordinate_of(std::size_t corner) const { return centre_[corner]; }
 
-  // What is linear over the triangle, at the corners of the smaller one.
+  // A vector that is linear over the whole triangle, at the corners of the smaller one.
   std::array<Vector3<T>, 3> corners(const std::array<Vector3<T>, 3>& q,
                                     const Vector3<T>& at_centre) const {
     std::array<Vector3<T>, 3> result;
@@ -54,7 +55,7 @@ class Focus {
   }
 
  private:
-  // Chosen for the smallest ratio of errors to those of the best quadratics.
+  // Chosen for the smallest error relative to that of the best quadratics.
   static constexpr double kCentring = 1.3;
   static constexpr double kFading = 6.2;
 

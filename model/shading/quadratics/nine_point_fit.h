@@ -1,14 +1,15 @@
-// The quadratic near values at nine points (corners C, middles M and inner points I), by one map
-// for all triangles. What quadratics cannot follow there is ΣI − ΣM and, of the three numbers M − C
-// + 3I, one a line from a corner to the opposite edge, what they differ by. Every map that treats
-// the corners alike and returns quadratics unchanged adds multiples of these.
+// Fits a quadratic to values at nine points (corners C, midpoints M and inner points I) by one
+// linear map for all triangles. Nine values deviate from a quadratic in two ways: in ΣI − ΣM, and
+// in the differences between the three numbers M − C + 3I, one for each line from a corner to the
+// opposite edge. Every map that treats the corners alike and returns quadratics unchanged adds
+// multiples of these deviations.
 #pragma once
 
 #include "model/shading/quadratics/cosine_samples.h"
 
 namespace phongpipe {
 
-// Chosen for the smallest largest errors on cosines, relative to the best quadratics'.
+// Chosen for the smallest largest error of cosines, relative to that of the best quadratics.
 struct NinePointMap {
   double corner_line = 0.275, middle_line = 0.0675;
   double corner_sum = 0.142, middle_sum = 0.222;

@@ -1,5 +1,5 @@
-// The reflection equation of one light in cosines between directions, at a point or as power
-// series: everything the pixels' two quadratics stand for.
+// The reflection equation of one light in cosines between directions, for values at a point or for
+// power series. The two quadratics of a light approximate its results.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace phongpipe {
 
-// All that decides which operations are executed.
+// Determines which operations are executed.
 struct ReflectionForm {
   SeriesFit fit = SeriesFit::taylor;
   bool point_light = false;  // at a finite distance, spots included
@@ -33,20 +33,21 @@ inline bool operator==(const ReflectionForm& a, const ReflectionForm& b) {
   return equal_fields(a, b);
 }
 
-// What is the same for all triangles. A = 1/(c + l d + q d²) · max(0, −L·S)^e, as a multiple of a
-// reference, positive, that the caller has multiplied c, l and q by and multiplies light and
-// highlights by; 1 where nothing is attenuated by distance. It should be the largest A there is:
-// above it highlights saturate, and above kLargestAttenuation times it A does.
+// Values that are the same for all triangles. The attenuation is A = 1/(c + l d + q d²) · max(0,
+// −L·S)^e, relative to a positive reference: the caller multiplies c, l and q by the reference
+// beforehand, and light and highlights afterwards. It is 1 without attenuation by distance, else it
+// should be the largest attenuation that occurs: highlights saturate above it, and A above
+// kLargestAttenuation times it.
 template <typename T>
 struct ReflectionTerms {
   Vector3<T> to_light;           // unit; read for a directional light
   Vector3<T> eye;                // unit, surface → eye; read for a viewer at infinity
-  Vector3<T> halfway;            // unit; read where both are so and the highlight is N·H
+  Vector3<T> halfway;            // unit; read if to_light and eye are, for N·H
   std::array<T, 3> attenuation;  // c, l, q times the reference
-  Vector3<T> spot_axis;          // unit, −S: against the way the light travels
+  Vector3<T> spot_axis;          // unit, −S: opposite to the direction of the light
   T spot_exponent;
-  T fold;       // 1/shininess: A^fold, raised with the highlight's cosine, is A again
-  T sharpness;  // shininess − 1, at least 0; read by the fits that weigh a highlight
+  T fold;       // 1/shininess, so that (A^fold · cosine)^shininess = A · cosine^shininess
+  T sharpness;  // shininess − 1, at least 0; read by weighted and focused fits
 };
 
 constexpr double kLargestAttenuation = 8;
@@ -64,8 +65,8 @@ struct ReflectionCosines {
 template <typename T, typename F, typename C>
 Reflected<F> reflected(const ReflectionForm& form, const SeriesWanted& wanted,
                        const ReflectionTerms<T>& terms, const ReflectionCosines<F, C>& at) {
-  // |E + L|² where E and L oppose each other. The highlight is 0 there; what matters is that it is
-  // a number. Lit and seen at the same time, surfaces are far from it.
+  // Least |E + L|², reached if E and L are opposite. The highlight is 0 there and only has to be
+  // finite. Surfaces that are both lit and seen are far from it.
   constexpr double kLeastHalfway = 1e-6;
   Reflected<F> result;
   if (wanted.light) result.light = at.light;

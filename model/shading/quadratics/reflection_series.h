@@ -1,5 +1,5 @@
-// Quadratics in x and y for one light's part of a triangle, for every reflection equation there is:
-// light near A N·L and highlight near A^fold N·H or A^fold R·V, as ReflectionForm says.
+// Quadratics in x and y for one light over a triangle, for every reflection equation: light
+// approximates A N·L, and highlight A^fold N·H or A^fold R·V, according to ReflectionForm.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace phongpipe {
 
 namespace detail {
 
-// Vectors of true length may vanish where a light or the eye lies on the surface; what comes of it
-// is to be a number.
+// Vectors of true length vanish if a light or the eye lies on the surface; results must stay
+// finite.
 constexpr double kLeastSquaredLength = 1e-30;
 
 template <typename T>
@@ -32,7 +32,8 @@ const Vector3<T>& vector_samples(const Vector3<T>& v) {
 }
 template <std::size_t points, typename T>
 NormalSamples<T, points> vector_samples(const Corners<T>& v) {
-  // Forms round by some 1e-16: even a cosine between two that vanish stays below 1.
+  // Forms have rounding errors of about 1e-16: even a cosine between two vanishing vectors stays
+  // below 1.
   constexpr double kLeast = 1e-14;
   return {v, kLeast};
 }
@@ -46,7 +47,7 @@ Quadratic<T> series_of_cosine(const NormalExpansion<T>& n, const ScaledVector<T>
   return n.finite(m);
 }
 
-// One number at all points, where both vectors are constant.
+// A single number for all points if both vectors are constant.
 template <std::size_t points, typename T>
 T cosines_between(const Vector3<T>& l, const Vector3<T>& e) {
   return l.dot(e);
@@ -70,8 +71,8 @@ const T& at_point(const Values<T, points>& values, std::size_t i) {
 
 }  // namespace detail
 
-// L, E: Vector3, a unit vector everywhere, or Corners, of true length and linear between them;
-// normalised at each point.
+// L, E, the types of the light and eye vectors: Vector3 for one unit vector everywhere, or Corners
+// for vectors of true length, linear between the corners and normalised at each point.
 template <typename T, typename L, typename E>
 class GeneralReflection {
  public:
@@ -177,7 +178,7 @@ class GeneralReflection {
  private:
   static constexpr bool kConstantLight = std::is_same_v<L, Vector3<T>>;
   static constexpr bool kConstantEye = std::is_same_v<E, Vector3<T>>;
-  // What is one number where light and eye are constant.
+  // A single number if light and eye are constant, else F.
   template <typename F>
   using Shared = std::conditional_t<kConstantLight && kConstantEye, T, F>;
 
@@ -188,8 +189,9 @@ class GeneralReflection {
   E eye_;
 };
 
-// `eye` and `light`: from the surface, of true length; read for a local viewer and for a light at a
-// finite distance only. `squared_length`: of the normals, where it is known already.
+// `eye` and `light`: from the surface, of true length; `eye` is read for a local viewer only,
+// `light` for a light at a finite distance only. `squared_length`: |N|² over the triangle, if known
+// already.
 template <typename T>
 CosineSeries<T> reflection_series(const ReflectionForm& form, const Interpolator<T>& interpolate,
                                   const Corners<T>& normal, const Corners<T>& eye,
@@ -207,7 +209,7 @@ CosineSeries<T> reflection_series(const ReflectionForm& form, const Interpolator
   };
   if (!form.point_light && (form.highlight == Highlight::halfway || !form.wanted.highlight)) {
     if (!form.local_viewer || !form.wanted.highlight) return cosines(terms.halfway);
-    // The paper's series has H linear between the corners, the fits have it exact.
+    // The paper's series has H linear between the corners; the fits use the exact H.
     if (form.fit == SeriesFit::taylor) return cosines(halfway_at_corners(eye, terms.to_light));
   }
   if (form.point_light) {

@@ -1,4 +1,4 @@
-// How much the displayed power of a cosine minds the cosine's errors.
+// Sensitivity of the displayed power of a cosine to errors of the cosine.
 #pragma once
 
 #include "model/shading/dataflow.h"
@@ -6,7 +6,7 @@
 
 namespace phongpipe {
 
-// A comparison costs the setup engine a subtraction.
+// A maximum costs the setup engine one subtraction.
 inline double maximum(double a, double b) {
   return a > b ? a : b;
 }
@@ -20,9 +20,9 @@ T eighth_power(const T& x) {
   return fourth * fourth;
 }
 
-// 1 + slope·(1 − s). Where a quadratic misses s by d, s^n is missed by about n s^(n−1) d. The
-// inverse of that sensitivity needs no table: s^−m = (1 + (1 − s)/s)^m is near (1 + m (1 − s)/8)^8
-// as far as it matters, and is less extreme where highlights have died away, which does a fit good.
+// 1 + slope·(1 − s). An error d of a cosine s changes s^n by about n s^(n−1) d. The inverse of that
+// sensitivity needs no table: s^−m = (1 + (1 − s)/s)^m is close to (1 + m (1 − s)/8)^8 while s is
+// close to 1. Where highlights have faded the latter is less extreme, which improves the fit.
 template <typename T>
 class Fading {
  public:

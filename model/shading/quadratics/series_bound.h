@@ -1,12 +1,13 @@
-// What the series of N·M can reach on a triangle at most, known before it is set up.
+// Bounds of the series of N·M over a triangle, computed before its setup.
 //
-// Along any line N(t) in a triangle, |d³/dt³ N·M/|N|| ≤ 3 (|N'|/|N|)³ for a constant unit M: with N
-// h from the origin at its nearest and u the way from there in units of h, the components of N/|N|
-// are 1/√(1 + u²) and u/√(1 + u²), and the length of their third derivatives is
-// 3 √(4u⁶ + 4u⁴ + u² + 1) / (1 + u²)^(7/2) ≤ 3 / (1 + u²)^(3/2). So a second-degree Taylor series
-// about a point of the triangle is off by τ³/2 at most, τ = (longest way from its normal to a
-// corner's) / (shortest normal). A fit P returns quadratics unchanged, so that it is off by |f − T|
-// + |P(f − T)| ≤ (1 + ‖P‖) τ³/2, whatever the point.
+// Along any line N(t) in a triangle, |d³/dt³ N·M/|N|| ≤ 3 (|N'|/|N|)³ for a constant unit M. Proof:
+// let h be the least distance of the line from the origin, and u the distance from the nearest
+// point, in units of h. The components of N/|N| are 1/√(1 + u²) and u/√(1 + u²), and their third
+// derivatives have the length 3 √(4u⁶ + 4u⁴ + u² + 1) / (1 + u²)^(7/2) ≤ 3 / (1 + u²)^(3/2). So the
+// error of a second-degree Taylor series T of f about a point of the triangle is at most τ³/2, with
+// τ = (largest distance from the normal at the point to that at a corner) / (length of the shortest
+// normal). A fit P returns quadratics unchanged, so for any such point its error is at most
+//   |f − T| + |P(f − T)| ≤ (1 + ‖P‖) τ³/2.
 #pragma once
 
 #include "model/shading/quadratics/cosine_samples.h"
@@ -14,22 +15,23 @@
 
 namespace phongpipe {
 
-// The extent of a vector field that is linear over a triangle.
+// Extent of a vector field that is linear over a triangle.
 template <typename T>
 struct FieldExtent {
-  T inverse_shortest, inverse_longest;  // 1/|N|, bounds over the triangle
-  T turn;  // the longest way from some point of the triangle to a corner, over the shortest |N|
+  T inverse_shortest, inverse_longest;  // bounds of 1/|N| over the triangle
+  T turn;                               // τ about the best of the edges' midpoints
 
-  // `form`: |N|², whose Bernstein coefficients bound it.
+  // `form`: |N|²; its Bernstein coefficients bound it.
   explicit FieldExtent(const QuadraticForm<T>& form) {
-    constexpr double kTiny = 1e-30;  // for rsqrt, where there is no bound or nothing turns
+    constexpr double kTiny = 1e-30;  // keeps rsqrt finite if there is no bound, or no turn
     const auto least = [](const std::array<T, 3>& v) { return at_most(v[0], at_most(v[1], v[2])); };
     const auto most = [](const std::array<T, 3>& v) { return maximum(v[0], maximum(v[1], v[2])); };
     const auto& [square, cross] = form;
     const T shortest = at_most(half(least(cross)), least(square));
     inverse_shortest = rsqrt(maximum(shortest, T(kTiny)));
     inverse_longest = rsqrt(most(square));
-    // Squares of the edges between the values, and of the ways from their middles to the corners.
+    // Squared distances between the corners' vectors, and from the edges' midpoints to the farthest
+    // corner.
     std::array<T, 3> edge, from_middle;
     for (std::size_t k = 0; k < 3; ++k) {
       edge[k] = square[(k + 1) % 3] + square[(k + 2) % 3] - cross[k];
@@ -43,7 +45,7 @@ struct FieldExtent {
   }
 };
 
-// Bounds on the cosine N·M/(|N||M|) itself, from those of N·M.
+// Bounds of the cosine N·M/(|N||M|), from those of N·M.
 template <typename T>
 struct CosineRange {
   T low, high;
@@ -56,7 +58,7 @@ struct CosineRange {
   }
 };
 
-// For a constant M of unit length.
+// Bounds of N·M/|N| for a constant unit M.
 template <typename T>
 CosineRange<T> cosine_range(const std::array<Vector3<T>, 3>& normal, const FieldExtent<T>& extent,
                             const Vector3<T>& m) {
@@ -65,7 +67,7 @@ CosineRange<T> cosine_range(const std::array<Vector3<T>, 3>& normal, const Field
           extent.inverse_longest};
 }
 
-// How far the Taylor series about a point of the triangle may be off.
+// Largest error of the Taylor series about a point of the triangle: τ³/2.
 template <typename T>
 T taylor_remainder(const T& turn) {
   return half(turn * turn * turn);
@@ -75,8 +77,7 @@ T taylor_remainder(const T& turn) {
 constexpr double kSixPointNorm = 5.0 / 3;
 constexpr double kNinePointNorm = 2.4667;
 
-// The lowest and highest values a series by a fit of this norm can have, where the cosine is
-// `range`.
+// Bounds of a series, fitted with the given norm, whose exact cosine lies within `range`.
 template <typename T>
 struct SeriesRange {
   T low{}, high{};

@@ -1,4 +1,4 @@
-// Which six numbers a triangle's T_i are. The pixel hardware is the same for all.
+// How the six coefficients T_i of a triangle are chosen. The pixel hardware is the same for all.
 #pragma once
 
 #include <string_view>
@@ -8,18 +8,18 @@ namespace phongpipe {
 
 enum class SeriesFit {
   taylor,     // the paper's series about the expansion point
-  six_point,  // through the corners and the middles of the edges
-  weighted,   // near ten points: N·L evenly, N·H by the sensitivity of its power
-  focused     // the same, with the points of N·H closing in on the highlight
+  six_point,  // interpolates at the corners and at the midpoints of the edges
+  weighted,   // N·L fitted at nine points, N·H at ten, weighted by the sensitivity of its power
+  focused     // as weighted, with the points of N·H moved onto the highlight
 };
 
-// What a light's two series are of, and of what they are made at a point.
+// Light (N·L) and highlight (N·H or R·V) of one light: their series, or their values at a point.
 template <typename F>
 struct Reflected {
   F light{}, highlight{};
 };
 
-// Which of the two are needed; no operation of the other is executed.
+// Which of the two series are computed; no operation of the other is executed.
 struct SeriesWanted {
   bool light = true, highlight = true;
 };
@@ -27,7 +27,7 @@ inline bool operator==(const SeriesWanted& a, const SeriesWanted& b) {
   return a.light == b.light && a.highlight == b.highlight;
 }
 
-// By the enumeration's order.
+// In the order of SeriesFit.
 inline std::vector<std::string_view> series_fit_names() {
   return {"taylor", "six-point", "weighted", "focused"};
 }

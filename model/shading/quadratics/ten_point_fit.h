@@ -1,16 +1,16 @@
-// The quadratic nearest to values at ten points, by weighted least squares in closed form. The
-// points lie four by four at even distances on the lines from the corners to the opposite edges;
-// there, and in one further way, quadratics cannot follow: −C + 3I − 3G + M = 0 on each line and
-// Σ4M − ΣC − 9G = 0, for values C at corners, M at middles, I inside and G at the centroid. The
-// residual of least squares is a combination of these four differences, each value's part divided
-// by its weight, so that four unknowns remain instead of six, and nearly separate ones.
+// Fits a quadratic to values at ten points by weighted least squares, in closed form. The points
+// lie at equal distances, four on each line from a corner to the opposite edge. With values C at
+// corners, M at midpoints, I at inner points and G at the centroid, quadratics satisfy −C + 3I −
+// 3G + M = 0 on each line and Σ4M − ΣC − 9G = 0. The least-squares residual is a combination of
+// these four differences, with the part of each value divided by its weight. So there are four
+// unknowns instead of six, nearly decoupled.
 #pragma once
 
 #include "model/shading/quadratics/cosine_samples.h"
 
 namespace phongpipe {
 
-// 1/x, the setup engine having no divider.
+// 1/x by rsqrt, because the setup engine has no divider.
 template <typename T>
 T reciprocal(const T& positive) {
   const T root = rsqrt(positive);
@@ -22,7 +22,7 @@ T thrice(const T& x) {
   return twice(x) + x;
 }
 
-// What quadratics cannot follow in ten values.
+// The four differences that vanish for quadratics.
 template <typename T>
 struct Differences {
   std::array<T, 3> line;

@@ -1,5 +1,5 @@
-// Power series in x and y, truncated after second degree, as values to calculate with: what an
-// equation is written for one point in, gives its Taylor series. The result of every operation is
+// Arithmetic on power series in x and y, truncated after second degree. An equation for values at a
+// point, evaluated with these series, gives its Taylor series. The result of every operation is
 // exact up to second degree.
 #pragma once
 
@@ -45,7 +45,7 @@ Quadratic<T> twice(const Quadratic<T>& p) {
   return {twice(p.t0), twice(p.t1), twice(p.t2), twice(p.t3), twice(p.t4), twice(p.t5)};
 }
 
-// f(x) from f, f' and f''/2 at x's value.
+// The series of f(x), from f, f' and f''/2 at the constant term of x.
 template <typename T>
 Quadratic<T> composed(const Quadratic<T>& x, const T& f, const T& slope, const T& curvature) {
   return {f,
@@ -66,17 +66,17 @@ Quadratic<T> reciprocal(const Quadratic<T>& x) {
   const T inverse = reciprocal(x.t0), slope = -(inverse * inverse);
   return composed(x, inverse, slope, -(slope * inverse));
 }
-// x^p, 0 everywhere where x's value is 0 or less.
+// x^p; the zero series if the constant term of x is 0 or less.
 template <typename T>
 Quadratic<T> power(const Quadratic<T>& x, const T& p) {
-  constexpr double kLeast = 1e-30;  // keeps 0 · 1/x from being no number
+  constexpr double kLeast = 1e-30;  // keeps 0 · 1/x from being NaN
   const T f = power(x.t0, p), inverse = reciprocal(maximum(x.t0, T(kLeast)));
   const T slope = p * f * inverse;
   return composed(x, f, slope, slope * inverse * half(p - T(1)));
 }
 
-// Bounds of a value, of a series its constant part. Its slopes stay: beyond the bounds nothing but
-// finiteness matters.
+// Clamps a value, or the constant term of a series. The other terms stay, because a clamped series
+// only has to be finite.
 template <typename T>
 T at_least(const T& low, const T& x) {
   return maximum(low, x);
