@@ -33,6 +33,11 @@ struct TomlTable::State {
     return table->get(key);
   }
   const toml::node& require(std::string_view key);
+  // An array of `kCount` numbers. `expected`: what the key must be; `fault_of` tells what is wrong
+  // with a number, nothing where it is right.
+  template <typename Number, std::size_t kCount, typename FaultOf>
+  std::array<Number, kCount> numbers(std::string_view key, std::string_view expected,
+                                     FaultOf fault_of);
   [[noreturn]] void fail(std::string_view key, const std::string& message) const;
   // `shown` is how the message writes the key.
   [[noreturn]] void fail_missing(std::string_view key, const std::string& shown) const;
@@ -107,6 +112,25 @@ const toml::node& TomlTable::State::require(std::string_view key) {
     fail_missing(key, fmt::format("'{}'", key));
   }
   return *node;
+}
+
+template <typename Number, std::size_t kCount, typename FaultOf>
+std::array<Number, kCount> TomlTable::State::numbers(std::string_view key,
+                                                     std::string_view expected, FaultOf fault_of) {
+  const toml::array* array = require(key).as_array();
+  if (array == nullptr || array->size() != kCount) {
+    fail(key, fmt::format("{} must be {}", key, expected));
+  }
+  std::array<Number, kCount> result{};
+  for (std::size_t i = 0; i < kCount; ++i) {
+    const toml::node& number = (*array)[i];
+    const std::string fault = fault_of(number);
+    if (!fault.empty()) {
+      throw InputError(file, line_of(number), fmt::format("{}[{}] {}", key, i, fault));
+    }
+    result[i] = *number.value<Number>();
+  }
+  return result;
 }
 
 TomlTable TomlTable::read_file(const std::filesystem::path& file) {
@@ -193,21 +217,9 @@ std::string TomlTable::text(std::string_view key, std::string_view fallback) con
 }
 
 std::array<double, 3> TomlTable::triple(std::string_view key, NumberRange range) const {
-  const toml::node& node = state_->require(key);
-  const toml::array* array = node.as_array();
-  if (array == nullptr || array->size() != 3) {
-    fail(key, fmt::format("{} must be three numbers, such as [0, 0, 1]", key));
-  }
-  std::array<double, 3> result{};
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const toml::node& component = (*array)[i];
-    const std::string fault = number_fault(component, range);
-    if (!fault.empty()) {
-      throw InputError(file(), line_of(component), fmt::format("{}[{}] {}", key, i, fault));
-    }
-    result[i] = *component.value<double>();
-  }
-  return result;
+  return state_->numbers<double, 3>(
+      key, "three numbers, such as [0, 0, 1]",
+      [&](const toml::node& node) { return number_fault(node, range); });
 }
 
 std::array<double, 3> TomlTable::color(std::string_view key) const {
@@ -223,20 +235,9 @@ std::array<double, 3> TomlTable::color(std::string_view key) const {
 }
 
 std::array<int, 2> TomlTable::integer_pair(std::string_view key, int min, int max) const {
-  const toml::node& node = state_->require(key);
-  const toml::array* array = node.as_array();
-  if (array == nullptr || array->size() != 2) {
-    fail(key, fmt::format("{} must be two whole numbers, such as [64, 32]", key));
-  }
-  std::array<int, 2> result{};
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const std::string fault = integer_fault((*array)[i], min, max);
-    if (!fault.empty()) {
-      throw InputError(file(), line_of((*array)[i]), fmt::format("{}[{}] {}", key, i, fault));
-    }
-    result[i] = *(*array)[i].value<int>();
-  }
-  return result;
+  return state_->numbers<int, 2>(
+      key, "two whole numbers, such as [64, 32]",
+      [&](const toml::node& node) { return integer_fault(node, min, max); });
 }
 
 std::ptrdiff_t TomlTable::choice_index(std::string_view key,

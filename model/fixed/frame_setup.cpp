@@ -19,7 +19,7 @@ bool is_lit(const Material& material, const Light& light) {
   return (material.diffuse * light.color > 0).any();
 }
 
-bool is_shiny(const Material& material, const Light& light) {
+bool has_highlight(const Material& material, const Light& light) {
   return (material.specular * light.color > 0).any();
 }
 
@@ -28,7 +28,7 @@ void require_exponents(const Scene& scene, const Geometry& geometry) {
   for (const Light& light : scene.lights) {
     if (!is_attenuated(light) && !has_spot_factor(light)) continue;
     for (const Material& material : geometry.materials) {
-      if (material.shininess > 0 || !is_shiny(material, light)) continue;
+      if (material.shininess > 0 || !has_highlight(material, light)) continue;
       throw InputError(scene.source, 0,
                        fmt::format("material {}: a shininess of 0 under a light that fades is not "
                                    "simulated; set shininess = 1 or more, or specular = 0",
@@ -146,11 +146,11 @@ EffectBlocks derive_blocks(const FixedPointFormats& formats, const Scene& scene,
     blocks.channels = formats.channel_choice == ChannelChoice::one ? 1 : 3;
   }
   blocks.diffuse = all || any_pair(scene, geometry, is_lit);
-  blocks.specular = all || any_pair(scene, geometry, is_shiny);
+  blocks.specular = all || any_pair(scene, geometry, has_highlight);
   blocks.depth_cue = all || scene.depth_cue.has_value();
   const bool unlit_highlight =
       any_pair(scene, geometry, [](const Material& material, const Light& light) {
-        return is_shiny(material, light) && !is_lit(material, light);
+        return has_highlight(material, light) && !is_lit(material, light);
       });
   blocks.gate = formats.gate_choice == GateSource::off ? GateSource::off
                 : unlit_highlight                      ? GateSource::series
@@ -203,7 +203,7 @@ MaterialSetup FrameSetup::set_up_material(std::uint32_t pass, const Material& ma
   MaterialSetup setup;
   setup.plan.channels = configuration.channels;
   setup.plan.diffuse = fitted_if(configuration.diffuse && (all || is_lit(material, light)));
-  const bool specular = configuration.specular && (all || is_shiny(material, light));
+  const bool specular = configuration.specular && (all || has_highlight(material, light));
   setup.plan.specular = fitted_if(specular);
   setup.plan.gate = fitted_if(specular && configuration.has_gate_series());
   setup.plan.depth = depth_test && pass == 0;

@@ -13,25 +13,30 @@
 
 namespace phongpipe {
 
-// A setting of `Record`, which holds the value: a number, or the index of a choice.
-template <typename Record>
-struct Setting {
+// A setting, which holds a number or the index of a choice.
+struct SettingDescription {
   std::string_view section, key;  // key = … under [section] of a hardware file
   std::string_view unit;          // "bits", "cycles", …; empty for a choice
   std::string_view meaning;
   int low = 0, high = 0;                  // the legal values, inclusive
   std::vector<std::string_view> choices;  // names of the values from 0; empty for a number
   std::string_view rtl_parameter;         // of pixel_datapath.sv; empty where it has none
-  std::function<int(const Record&)> get;
-  std::function<void(Record&, int)> put;
 
   std::string name() const { return fmt::format("{}.{}", section, key); }
-  // The value as text, as in files and --set.
-  std::string value(const Record& record) const { return text(get(record)); }
+  // A value as text, as in files and --set.
   std::string text(int value) const {
     return choices.empty() ? fmt::format("{}", value)
                            : std::string(choices[static_cast<std::size_t>(value)]);
   }
+};
+
+// Of a `Record` that holds the value.
+template <typename Record>
+struct Setting : SettingDescription {
+  std::function<int(const Record&)> get;
+  std::function<void(Record&, int)> put;
+
+  std::string value(const Record& record) const { return text(get(record)); }
   // Throws InputError naming key, value and legal range.
   void check(const Record& record) const {
     const int value = get(record);
@@ -42,15 +47,7 @@ struct Setting {
   // The same setting for a record that has `part` as a member.
   template <typename Whole>
   Setting<Whole> of(Record Whole::*part) const {
-    return {section,
-            key,
-            unit,
-            meaning,
-            low,
-            high,
-            choices,
-            rtl_parameter,
-            [get = get, part](const Whole& whole) { return get(whole.*part); },
+    return {*this, [get = get, part](const Whole& whole) { return get(whole.*part); },
             [put = put, part](Whole& whole, int value) { put(whole.*part, value); }};
   }
 };
@@ -68,14 +65,7 @@ template <typename Record>
 Setting<Record> number_setting(std::string_view section, std::string_view key, int Record::*member,
                                std::string_view unit, int low, int high, std::string_view meaning,
                                std::string_view rtl_parameter = {}) {
-  return {section,
-          key,
-          unit,
-          meaning,
-          low,
-          high,
-          {},
-          rtl_parameter,
+  return {{section, key, unit, meaning, low, high, {}, rtl_parameter},
           [member](const Record& record) { return record.*member; },
           [member](Record& record, int value) { record.*member = value; }};
 }
@@ -85,14 +75,7 @@ template <typename Record, typename Enum>
 Setting<Record> choice_setting(std::string_view section, std::string_view key, Enum Record::*member,
                                std::vector<std::string_view> choices, std::string_view meaning) {
   const int last = static_cast<int>(choices.size()) - 1;
-  return {section,
-          key,
-          {},
-          meaning,
-          0,
-          last,
-          std::move(choices),
-          {},
+  return {{section, key, {}, meaning, 0, last, std::move(choices), {}},
           [member](const Record& record) { return static_cast<int>(record.*member); },
           [member](Record& record, int value) { record.*member = static_cast<Enum>(value); }};
 }

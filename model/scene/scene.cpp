@@ -17,6 +17,10 @@ double distance_attenuation(const Light& light, double distance) {
   return 1 / (constant + distance * (linear + distance * quadratic));
 }
 
+bool is_shiny(const Material& material) {
+  return (material.specular > 0).any();
+}
+
 bool is_screen_space(const Scene& scene) {
   return scene.objects.front().screen_triangles != nullptr;
 }

@@ -68,6 +68,9 @@ struct Material {
   double shininess = 20;  // n of (N·H)^n
 };
 
+// Whether it reflects a highlight.
+bool is_shiny(const Material& material);
+
 struct Mesh;            // mesh.h
 struct ScreenTriangle;  // geometry.h
 

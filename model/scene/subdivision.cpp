@@ -64,8 +64,8 @@ class Splitter {
   Splitter(const Scene& scene, const Geometry& geometry, int largest_turn_degrees)
       : scene_(scene), largest_turn_(largest_turn_degrees * kPi / 180) {
     for (const Material& material : geometry.materials) {
-      const bool shiny = (material.specular > 0).any();
-      highlight_radius_.push_back(shiny ? radius_of_highlight(scene, material) : 2 * kPi);
+      highlight_radius_.push_back(is_shiny(material) ? radius_of_highlight(scene, material)
+                                                     : 2 * kPi);
     }
     for (const Light& light : scene.lights) light_limit_.push_back(limit_of(light));
   }

@@ -50,7 +50,7 @@ BestTriangle::BestTriangle(const Scene& scene, const Material& material,
   eye_ = interpolate(v[0].eye, v[1].eye, v[2].eye);
 
   const int stride = stride_of(rows);
-  const bool shiny = (material.specular > 0).any();
+  const bool shiny = is_shiny(material);
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     to_light_.push_back(interpolate(light_vector(scene.lights[i], v[0]),
                                     light_vector(scene.lights[i], v[1]),

@@ -66,8 +66,7 @@ double amortised(const MethodCosts& costs, const Visibility& frame, Measure meas
 }
 
 bool has_highlight(const Geometry& geometry) {
-  return std::any_of(geometry.materials.begin(), geometry.materials.end(),
-                     [](const Material& material) { return (material.specular > 0).any(); });
+  return std::any_of(geometry.materials.begin(), geometry.materials.end(), is_shiny);
 }
 
 // The scene as a method that knows one form of the highlight wants it.

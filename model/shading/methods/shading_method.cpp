@@ -20,10 +20,6 @@ std::string_view name(LightType type) {
   return "";
 }
 
-bool is_shiny(const Material& material) {
-  return (material.specular > 0).any();
-}
-
 std::optional<std::string> light_refusal(const Abilities& can, const Scene& scene) {
   if (scene.lights.size() > 1 && !can.several_lights) {
     return fmt::format("it has one light, the scene has {}", scene.lights.size());

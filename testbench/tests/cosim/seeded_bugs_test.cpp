@@ -125,6 +125,28 @@ TEST_F(SeededBug, ABubbleBetweenSpansIsFoundByTheCycles) {
   EXPECT_FALSE(v.passed());
 }
 
+// The hashes of the first simulation differ; the second, which looks for the pixels, finds none.
+TEST_F(SeededBug, AFaultOfOnlyTheFirstSimulationStillFails) {
+  const std::string marker = (folder_ / "simulated").string();
+  seed("pixel_datapath.sv", "logic s2_open;",
+       fmt::format("logic s2_open;\n"
+                   "bit first;\n"
+                   "initial if ($fopen(\"{0}\", \"r\") == 0) first = $fopen(\"{0}\", \"w\") != 0;",
+                   marker));
+  seed("pixel_datapath.sv", ".highlight_open(s2_open)", ".highlight_open(s2_open ^ first)");
+  const VerificationResult v = run();
+  EXPECT_FALSE(v.passed());
+  EXPECT_TRUE(v.systemc.agrees());
+  EXPECT_EQ(v.rtl.stream_mismatches, 0U);
+  EXPECT_EQ(v.rtl.frame_mismatches, 0U);
+  EXPECT_FALSE(v.rtl.first_divergence.has_value());
+  EXPECT_EQ(v.rtl.counts.failure, "simulated twice, it differed from the model only once");
+  const std::string report = report_text(v, {});
+  EXPECT_NE(report.find("FAILED"), std::string::npos) << report;
+  EXPECT_NE(report.find(v.rtl.counts.failure), std::string::npos) << report;
+  EXPECT_TRUE(run().passed()) << "the marker is there now";
+}
+
 TEST_F(SeededBug, RtlThatDoesNotCompileIsAnInputErrorOfOneLine) {
   seed("color_sum.sv", "endmodule", "endmodul");
   try {

@@ -11,13 +11,15 @@
 namespace phongpipe {
 namespace {
 
-FrameSetup small_frame(int channels = 3, int depth_bits = 8) {
+FrameSetup small_frame(int channels = 3, int depth_bits = 8, std::size_t lights = 1,
+                       Effects effects = Effects::derived) {
   Scene scene = lit_scene(4, 3);
   scene.image.background = Color(0.2, 0.5, 1);
+  scene.lights.resize(lights);
   FrameConfiguration configuration;
   configuration.channels = channels;
   configuration.depth_bits = depth_bits;
-  return FrameSetup(scene, Geometry(), configuration);
+  return FrameSetup(scene, Geometry(), configuration, effects);
 }
 
 TEST(Framebuffer, StartsAsBackground) {
@@ -56,15 +58,9 @@ TEST(Framebuffer, WritesOnePixelAndTheFarthestDepthBeatsTheBackground) {
   }
 }
 
-// Two lights; `depth_test`: whether some pixel may be covered twice.
+// `depth_test`: whether some pixel may be covered twice.
 Framebuffer under_two_lights(bool depth_test) {
-  Scene scene = lit_scene(4, 3);
-  scene.lights.resize(2);
-  FrameConfiguration configuration;
-  configuration.channels = 3;
-  configuration.depth_bits = 8;
-  return Framebuffer(
-      FrameSetup(scene, Geometry(), configuration, depth_test ? Effects::all : Effects::derived));
+  return Framebuffer(small_frame(3, 8, 2, depth_test ? Effects::all : Effects::derived));
 }
 
 TEST(Framebuffer, AFurtherLightIsAddedAndSaturatesEachChannelAlone) {
