@@ -131,7 +131,15 @@ TEST_F(SeededBug, AFaultOfOnlyTheFirstSimulationStillFails) {
   seed("pixel_datapath.sv", "logic s2_open;",
        fmt::format("logic s2_open;\n"
                    "bit first;\n"
-                   "initial if ($fopen(\"{0}\", \"r\") == 0) first = $fopen(\"{0}\", \"w\") != 0;",
+                   "integer file;\n"
+                   "initial begin\n"
+                   "  first = 0;\n"
+                   "  file = $fopen(\"{0}\", \"r\");\n"
+                   "  if (file == 0) begin\n"
+                   "    first = 1;\n"
+                   "    file = $fopen(\"{0}\", \"w\");\n"
+                   "  end\n"
+                   "end",
                    marker));
   seed("pixel_datapath.sv", ".highlight_open(s2_open)", ".highlight_open(s2_open ^ first)");
   const VerificationResult v = run();

@@ -60,28 +60,27 @@ void expect_blocks(const Elaborated& e, const FrameSetup& frame) {
 
 class DatapathBlocksOf : public testing::TestWithParam<Detail> {
  protected:
-  void for_each_scene(Effects effects,
-                      const std::function<void(const FrameSetup&, const Geometry&)>& check) const {
+  void for_each_scene(Effects effects, const std::function<void(const FrameSetup&)>& check) const {
     for (unsigned seed = kFirstSeed; seed < kFirstSeed + kSeeds; ++seed) {
       Random random(seed);
       const RandomEffects e = random_effects(random);
       SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));
       const FrameConfiguration suited =
           with_derived_blocks(e.configuration, e.scene, e.geometry, effects);
-      check(FrameSetup(e.scene, e.geometry, suited, effects), e.geometry);
+      check(FrameSetup(e.scene, e.geometry, suited, effects));
       if (HasFailure()) return;
     }
   }
 };
 
 TEST_P(DatapathBlocksOf, AScenesEffectsAreElaboratedAndNoOthers) {
-  for_each_scene(Effects::derived, [](const FrameSetup& frame, const Geometry& geometry) {
+  for_each_scene(Effects::derived, [](const FrameSetup& frame) {
     expect_blocks(simulate_apart(frame, GetParam()), frame);
   });
 }
 
 TEST_P(DatapathBlocksOf, EverythingExecutesEveryAdderAndMultiplierForEveryPixel) {
-  for_each_scene(Effects::all, [](const FrameSetup& frame, const Geometry& geometry) {
+  for_each_scene(Effects::all, [](const FrameSetup& frame) {
     const Elaborated e = simulate_apart(frame, GetParam());
     expect_blocks(e, frame);
     const FrameConfiguration& c = frame.configuration;
@@ -94,7 +93,7 @@ TEST_P(DatapathBlocksOf, EverythingExecutesEveryAdderAndMultiplierForEveryPixel)
 }
 
 TEST_P(DatapathBlocksOf, AScenesOwnHardwareExecutesNoMore) {
-  for_each_scene(Effects::derived, [](const FrameSetup& frame, const Geometry& geometry) {
+  for_each_scene(Effects::derived, [](const FrameSetup& frame) {
     const Elaborated e = simulate_apart(frame, GetParam());
     const FrameConfiguration& c = frame.configuration;
     const std::uint64_t pixels = run_model(frame).pixels;

@@ -169,7 +169,7 @@ TEST_P(Picture, OfTwoHalvesOfALightIsThatOfTheLight) {
 }
 
 // For each pixel, whether two triangles share the nearest depth.
-std::vector<bool> ties(const FrameSetup& frame, const Geometry& geometry) {
+std::vector<bool> ties(const FrameSetup& frame) {
   const FrontEnd front_end(frame);
   std::map<std::size_t, std::uint32_t> nearest;
   std::vector<bool> tied(static_cast<std::size_t>(frame.width) *
@@ -197,7 +197,7 @@ TEST_P(Picture, DoesNotDependOnTheOrderOfTriangles) {
   for_each_scene([&](Random& random, RandomEffects e) {
     const Colors ordered = picture(e);
     const std::vector<bool> tied =
-        ties(FrameSetup(e.scene, e.geometry, e.configuration, Effects::all), e.geometry);
+        ties(FrameSetup(e.scene, e.geometry, e.configuration, Effects::all));
     std::vector<ScreenTriangle>& triangles = e.geometry.triangles;
     for (std::size_t i = triangles.size(); i > 1; --i) {
       std::swap(triangles[i - 1],
