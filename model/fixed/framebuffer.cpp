@@ -39,10 +39,9 @@ T* zeros(std::size_t count) {
 
 Framebuffer::Framebuffer(const FrameSetup& frame, Owners owners)
     : width_(frame.width), height_(frame.height), background_(background_color(frame)) {
-  const std::size_t memory = address(width_ - 1, height_ - 1) + 1;
-  cells_.reset(zeros<Cell>(memory));
+  cells_.reset(zeros<Cell>(size()));
   if (owners == Owners::where_needed && !(frame.depth_test && frame.passes > 1)) return;
-  owners_.reset(zeros<std::uint32_t>(memory));
+  owners_.reset(zeros<std::uint32_t>(size()));
 }
 
 }  // namespace phongpipe

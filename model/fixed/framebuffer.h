@@ -29,25 +29,26 @@ class Framebuffer {
 
   // Writes or adds pixel (x, y), inside the image, of a span of `triangle`. False if it is hidden.
   bool write(int x, int y, std::uint32_t depth, std::uint32_t triangle, std::uint32_t color) {
-    const std::size_t at = address(x, y);
-    Cell& cell = cells_[at];
+    const std::size_t index = index_of(x, y);
+    Cell& cell = cells_[index];
     const std::uint32_t nearness = ~depth;
     if (nearness <= cell.nearness) return false;
     cell = {nearness, color};
-    if (owners_) owners_[at] = triangle + 1;
+    if (owners_) owners_[index] = triangle + 1;
     return true;
   }
   bool add(int x, int y, std::uint32_t triangle, std::uint32_t color) {
-    const std::size_t at = address(x, y);
-    if (owners_ && owners_[at] != triangle + 1) return false;
-    cells_[at].color = add_saturated(cells_[at].color, color);
+    const std::size_t index = index_of(x, y);
+    if (owners_ && owners_[index] != triangle + 1) return false;
+    cells_[index].color = add_saturated(cells_[index].color, color);
     return true;
   }
 
   // Prefetches the pixels of a row into the cache.
   void prefetch(const RowSpan& row) const {
-    __builtin_prefetch(&cells_[address(row.x, row.y)]);
-    __builtin_prefetch(&cells_[address(row.x + row.length - 1, row.y)]);
+    const Cell* const first = &cells_[index_of(row.x, row.y)];
+    __builtin_prefetch(first);
+    __builtin_prefetch(first + row.length - 1);
   }
 
   // write() in the first pass, else add().
@@ -72,23 +73,18 @@ class Framebuffer {
   // visit(index, color) for each covered pixel.
   template <typename Visit>
   void for_each_covered(Visit visit) const {
-    std::size_t index = 0;
-    for (int y = 0; y < height_; ++y) {
-      for (int x = 0; x < width_; ++x, ++index) {
-        const Cell& cell = cells_[address(x, y)];
-        if (cell.nearness != 0) visit(index, cell.color);
-      }
+    for (std::size_t i = 0; i < size(); ++i) {
+      if (covered(i)) visit(i, cells_[i].color);
     }
   }
-  bool covered(std::size_t index) const { return cells_[address(index)].nearness != 0; }
+  bool covered(std::size_t index) const { return cells_[index].nearness != 0; }
   // Whether the triangle is the owner of the pixel. Owners must be kept.
   bool owned(std::size_t index, std::uint32_t triangle) const {
-    return owners_[address(index)] == triangle + 1;
+    return owners_[index] == triangle + 1;
   }
   // Channel 0 in the low byte; the background if the pixel is not covered.
   std::uint32_t color(std::size_t index) const {
-    const Cell& cell = cells_[address(index)];
-    return cell.nearness != 0 ? cell.color : background_;
+    return covered(index) ? cells_[index].color : background_;
   }
 
  private:
@@ -104,20 +100,9 @@ class Framebuffer {
   template <typename T>
   using Zeroed = std::unique_ptr<T[], Free>;
 
-  // The image lies in memory as strips of columns, one after the other, so that columns no triangle
-  // reaches never touch memory.
-  static constexpr int kStripBits = 7;  // 128 columns
-  std::size_t address(int x, int y) const {
-    constexpr int kMask = (1 << kStripBits) - 1;
-    const std::size_t row_of_strip =
-        static_cast<std::size_t>(x >> kStripBits) * static_cast<std::size_t>(height_) +
-        static_cast<std::size_t>(y);
-    return row_of_strip << kStripBits | static_cast<std::size_t>(x & kMask);
-  }
-  std::size_t address(std::size_t index) const {
-    const auto pixel = static_cast<std::uint32_t>(index);  // 32 bits: divisions are fast
-    const auto width = static_cast<std::uint32_t>(width_);
-    return address(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+  std::size_t index_of(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
   }
   static std::uint32_t add_saturated(std::uint32_t a, std::uint32_t b) {
     std::uint32_t sum = 0;

@@ -17,9 +17,9 @@ class RtlLoop {
   static constexpr std::size_t kBatch = 256;
   static constexpr std::size_t kPixels = kBatch * 4096;
 
-  RtlLoop() : library_(pawn().frame.configuration, {}), rtl_(library_), spans_(pawn().spans()) {
+  RtlLoop() : library_(pawn().frame.configuration, {}), rtl_(library_) {
     rtl_.load_table(pawn().table());
-    for (const Span& span : spans_) rtl_spans_.push_back(to_rtl(span));
+    pawn().for_each_span([this](const Span& span) { spans_.push_back(to_rtl(span)); });
     run([](auto&&...) {});  // touches all memory once, so that no turn pays for that
   }
 
@@ -29,7 +29,7 @@ class RtlLoop {
     pixels_.resize(kPixels);
     for (std::size_t first = 0; first < spans_.size(); first += kBatch) {
       const std::size_t count = std::min(kBatch, spans_.size() - first);
-      library_.interface().run(rtl_.rtl(), pawn().frame.cue_color.data(), rtl_spans_.data() + first,
+      library_.interface().run(rtl_.rtl(), pawn().frame.cue_color.data(), spans_.data() + first,
                                count, pixels_.data());
       visit(spans_.data() + first, count, pixels_.data());
     }
@@ -38,16 +38,16 @@ class RtlLoop {
  private:
   RtlLibrary library_;
   RtlDatapath rtl_;
-  std::vector<Span> spans_;
-  std::vector<RtlSpan> rtl_spans_;
+  std::vector<RtlSpan> spans_;
   std::vector<RtlPixel> pixels_;
 };
 
 void bare(benchmark::State& state) {
   RtlLoop loop;
   for (auto _ : state) {
-    loop.run(
-        [](const Span*, std::size_t, const RtlPixel* pixels) { benchmark::DoNotOptimize(pixels); });
+    loop.run([](const RtlSpan*, std::size_t, const RtlPixel* pixels) {
+      benchmark::DoNotOptimize(pixels);
+    });
   }
   state.SetItemsProcessed(state.iterations() * pawn().pixels);
 }
@@ -65,13 +65,11 @@ void compared(benchmark::State& state) {
   for (auto _ : state) {
     std::future<Fingerprint> model = std::async(std::launch::async, hash_model);
     StreamHash hash;
-    loop.run([&](const Span* spans, std::size_t count, const RtlPixel* pixels) {
-      std::size_t pixel_count = 0;
-      for (std::size_t s = 0; s < count; ++s) {
-        pixel_count += static_cast<std::size_t>(spans[s].row.length);
-      }
-      for (std::size_t i = 0; i < pixel_count; ++i) {
-        hash.add({pixels[i].x, pixels[i].y, pixels[i].color});
+    loop.run([&](const RtlSpan* spans, std::size_t count, const RtlPixel* pixels) {
+      for (const RtlSpan* span = spans; span != spans + count; ++span) {
+        for (int i = 0; i < span->length; ++i, ++pixels) {
+          hash.add({pixels->x, pixels->y, pixels->color});
+        }
       }
     });
     if (!same_stream(hash.fingerprint(), model.get())) {

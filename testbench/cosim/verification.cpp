@@ -143,9 +143,8 @@ bool VerificationResult::passed() const {
          same_cycles() && within_budget() && set_up.overflows == 0;
 }
 
-VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
-                          const Hardware& hardware, const VerificationOptions& options,
-                          const ShowProgress& progress) {
+VerificationResult verify(const Scene& scene, const Hardware& hardware,
+                          const VerificationOptions& options, const ShowProgress& progress) {
   const auto show = [&progress](const std::string& what) {
     if (progress) progress(what);
   };
@@ -153,7 +152,7 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   const Effects effects = options.effects == EffectsToVerify::all ? Effects::all : Effects::derived;
   const PreparedFrame frame(scene, hardware.formats, hardware.setup, effects);
   VerificationResult result;
-  result.scene = scene->scene.source;
+  result.scene = scene.source;
   result.options = options;
   result.hardware = resolved(hardware, frame.setup.configuration);
   result.clock_ns = hardware.technology.clock_ns(frame.setup.configuration);
@@ -177,7 +176,7 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   result.set_up = model.frame.triangles;
   result.pixels = model.frame.pixels;
   if (result.pixels == 0) {
-    throw InputError(scene->scene.source, 0,
+    throw InputError(scene.source, 0,
                      "nothing of the scene covers a pixel; look at the camera and the objects");
   }
   result.accuracy = measure_accuracy(frame.setup, model.frame, options.pictures);

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,13 +74,7 @@ using ShowProgress = std::function<void(const std::string&)>;
 
 // Throws InputError if no pixel is visible, or if the technology has no clock for the
 // configuration.
-VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
-                          const Hardware& hardware, const VerificationOptions& options,
-                          const ShowProgress& progress = {});
-inline VerificationResult verify(const Scene& scene, const Hardware& hardware,
-                                 const VerificationOptions& options,
-                                 const ShowProgress& progress = {}) {
-  return verify(std::make_shared<const PreparedScene>(scene), hardware, options, progress);
-}
+VerificationResult verify(const Scene& scene, const Hardware& hardware,
+                          const VerificationOptions& options, const ShowProgress& progress = {});
 
 }  // namespace phongpipe
