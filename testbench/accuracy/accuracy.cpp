@@ -63,7 +63,8 @@ Accuracy measure_triangles(const FrameSetup& frame, const ModelFrame& model, std
 
 }  // namespace
 
-Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures) {
+Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures,
+                          bool one_core) {
   Accuracy whole;
   if (pictures) {
     whole.exact_picture =
@@ -84,7 +85,8 @@ Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool
     }
   };
   std::vector<std::thread> threads;
-  for (unsigned i = 1; i < std::min(std::thread::hardware_concurrency(), kParts); ++i) {
+  const unsigned cores = one_core ? 1 : std::thread::hardware_concurrency();
+  for (unsigned i = 1; i < std::min(cores, kParts); ++i) {
     threads.emplace_back(work);
   }
   work();

@@ -48,7 +48,8 @@ struct Accuracy {
   Picture error_picture;  // the largest error of the channels, in the colours of error_color()
 };
 
-// Measures all visible pixels of the model's frame.
-Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures = true);
+// Measures all visible pixels of the model's frame, on all cores or one. The result is the same.
+Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures = true,
+                          bool one_core = false);
 
 }  // namespace phongpipe

@@ -26,6 +26,12 @@ std::int64_t sum(const SimulationCounts& counts) {
   return static_cast<std::int64_t>(operations);
 }
 
+// What there is only with RTL.
+template <typename Value>
+MetricValue of_rtl(const Result& r, Value value) {
+  return r.rtl ? MetricValue(static_cast<std::int64_t>(value(*r.rtl))) : MetricValue();
+}
+
 double per_triangle(const Result& r, std::int64_t cycles) {
   return r.set_up.set_up == 0 ? 0
                               : static_cast<double>(cycles) / static_cast<double>(r.set_up.set_up);
@@ -56,13 +62,17 @@ std::vector<Metric> all_metrics() {
 
       {"rtl_mismatches", "/mismatches/model_rtl", "", kLess,
        "pixels shaded by the RTL that are not the model's",
-       [](const Result& r) { return count(r.rtl.stream_mismatches); }},
+       [](const Result& r) {
+         return of_rtl(r, [](const ImplementationResult& rtl) { return rtl.stream_mismatches; });
+       }},
       {"systemc_mismatches", "/mismatches/model_systemc", "", kLess,
        "pixels shaded in SystemC that are not the model's",
        [](const Result& r) { return count(r.systemc.stream_mismatches); }},
       {"rtl_frame_mismatches", "/mismatches/frame_rtl", "", kLess,
        "pixels of the final frame with the RTL that are not the model's",
-       [](const Result& r) { return count(r.rtl.frame_mismatches); }},
+       [](const Result& r) {
+         return of_rtl(r, [](const ImplementationResult& rtl) { return rtl.frame_mismatches; });
+       }},
       {"systemc_frame_mismatches", "/mismatches/frame_systemc", "", kLess,
        "pixels of the final frame in SystemC that are not the model's",
        [](const Result& r) { return count(r.systemc.frame_mismatches); }},
@@ -74,10 +84,12 @@ std::vector<Metric> all_metrics() {
        [](const Result& r) { return count(r.systemc.counts.frame_cycles); }, true},
       {"cycle_difference", "/cycles/difference", "cycles", kLess,
        "that the frame takes more with the RTL than in SystemC",
-       [](const Result& r) { return count(r.cycle_difference()); }},
+       [](const Result& r) { return r.rtl ? count(r.cycle_difference()) : MetricValue(); }},
       {"datapath_cycles_rtl", "/cycles/datapath_rtl", "cycles", kLess,
        "until the RTL has delivered the last pixel",
-       [](const Result& r) { return count(r.rtl.counts.datapath_cycles); }},
+       [](const Result& r) {
+         return of_rtl(r, [](const ImplementationResult& rtl) { return rtl.counts.datapath_cycles; });
+       }},
       {"datapath_cycles_systemc", "/cycles/datapath_systemc", "cycles", kLess,
        "until SystemC's pixel_datapath has delivered the last pixel",
        [](const Result& r) { return count(r.systemc.counts.datapath_cycles); }},
@@ -95,7 +107,9 @@ std::vector<Metric> all_metrics() {
        [](const Result& r) -> MetricValue { return r.clock_ns; }, true},
       {"datapath_ns_per_pixel", "/ns_per_pixel/datapath", "ns", kLess,
        "time in which the RTL's datapath was occupied, over the pixels shaded",
-       [](const Result& r) -> MetricValue { return r.datapath_ns_per_pixel(); }},
+       [](const Result& r) {
+         return r.rtl ? MetricValue(r.datapath_ns_per_pixel()) : MetricValue();
+       }},
       {"frame_ns_per_pixel", "/ns_per_pixel/frame", "ns", kLess,
        "time of the whole frame, over the pixels shaded",
        [](const Result& r) -> MetricValue { return r.frame_ns_per_pixel(); }},
@@ -167,6 +181,7 @@ const std::vector<Metric>& metrics() {
 }
 
 std::string metric_text(const MetricValue& value) {
+  if (std::holds_alternative<std::monostate>(value)) return "-";
   if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.4g}", *number);
   std::string digits = fmt::format("{}", std::get<std::int64_t>(value));
   const std::size_t first = digits.front() == '-' ? 1 : 0;

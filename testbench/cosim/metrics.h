@@ -11,7 +11,7 @@
 
 namespace phongpipe {
 
-using MetricValue = std::variant<std::int64_t, double>;
+using MetricValue = std::variant<std::monostate, std::int64_t, double>;  // monostate: no value
 
 struct Metric {
   enum class Better { less, more, neither };
@@ -27,7 +27,7 @@ struct Metric {
 
 const std::vector<Metric>& metrics();
 
-// The value for people: whole numbers with separators, others with 4 digits.
+// The value for people: whole numbers with separators, others with 4 digits, - for no value.
 std::string metric_text(const MetricValue& value);
 
 }  // namespace phongpipe

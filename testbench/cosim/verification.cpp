@@ -24,9 +24,9 @@ class Implementation {
                  const SimulationOptions& options, const RtlLibrary* library)
       : frame_(frame), pipeline_(pipeline), options_(options), library_(library) {}
 
-  // Simulates in a child process and hashes what comes.
-  Child start() const {
-    return Child([this] {
+  // Starts the simulation in a child process, which hashes what comes. Call it once.
+  void start() {
+    child_.emplace([this] {
       StreamHash hash;
       SimulationOptions options = options_;
       options.observe = [&hash](const ShadedPixel* pixels, const std::int64_t* cycles,
@@ -39,6 +39,12 @@ class Implementation {
       result.fingerprint = hash.fingerprint(simulated.framebuffer, frame_.configuration.channels);
       return to_bytes(result);
     });
+  }
+
+  // Waits for the simulation, and starts it if it was not.
+  ImplementationResult result() {
+    if (!child_) start();
+    return from_bytes<ImplementationResult>(child_->get());
   }
 
   // Simulates once more and finds what differs from the model. A frame of other hardware has other
@@ -84,6 +90,7 @@ class Implementation {
   const PipelineConfiguration& pipeline_;
   SimulationOptions options_;
   const RtlLibrary* library_;
+  std::optional<Child> child_;
 };
 
 // The model's frame and what it hashes to.
@@ -125,7 +132,7 @@ void describe_frame(const PreparedFrame& frame, VerificationResult& result) {
 }  // namespace
 
 double VerificationResult::datapath_ns_per_pixel() const {
-  return clock_ns * static_cast<double>(rtl.counts.datapath_busy_cycles) /
+  return clock_ns * static_cast<double>(rtl->counts.datapath_busy_cycles) /
          static_cast<double>(pixels);
 }
 
@@ -134,17 +141,19 @@ double VerificationResult::frame_ns_per_pixel() const {
 }
 
 bool VerificationResult::same_cycles() const {
-  return cycle_difference() == 0 && rtl.counts.datapath_cycles == systemc.counts.datapath_cycles &&
-         rtl.fingerprint.cycles_hash == systemc.fingerprint.cycles_hash;
+  if (!rtl) return true;
+  return cycle_difference() == 0 && rtl->counts.datapath_cycles == systemc.counts.datapath_cycles &&
+         rtl->fingerprint.cycles_hash == systemc.fingerprint.cycles_hash;
 }
 
 bool VerificationResult::passed() const {
-  return systemc.agrees() && rtl.agrees() && (!full_hardware || full_hardware->systemc.agrees()) &&
-         same_cycles() && within_budget() && set_up.overflows == 0;
+  return agrees() && (!full_hardware || full_hardware->systemc.agrees()) && within_budget() &&
+         set_up.overflows == 0;
 }
 
-VerificationResult verify(const Scene& scene, const Hardware& hardware,
-                          const VerificationOptions& options, const ShowProgress& progress) {
+VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
+                          const Hardware& hardware, const VerificationOptions& options,
+                          const ShowProgress& progress) {
   const auto show = [&progress](const std::string& what) {
     if (progress) progress(what);
   };
@@ -152,40 +161,47 @@ VerificationResult verify(const Scene& scene, const Hardware& hardware,
   const Effects effects = options.effects == EffectsToVerify::all ? Effects::all : Effects::derived;
   const PreparedFrame frame(scene, hardware.formats, hardware.setup, effects);
   VerificationResult result;
-  result.scene = scene.source;
+  result.scene = scene->scene.source;
   result.options = options;
   result.hardware = resolved(hardware, frame.setup.configuration);
   result.clock_ns = hardware.technology.clock_ns(frame.setup.configuration);
   describe_frame(frame, result);
 
-  RtlBuildOptions build;
-  build.sources = options.rtl_sources;
-  build.progress = [&](const std::string& what) { show("building the RTL for " + what); };
-  const RtlLibrary library(frame.setup.configuration, build);
+  std::optional<RtlLibrary> library;
+  if (options.rtl != RtlToVerify::off) {
+    RtlBuildOptions build;
+    build.sources = options.rtl_sources;
+    build.progress = [&](const std::string& what) { show("building the RTL for " + what); };
+    library.emplace(frame.setup.configuration, build);
+  }
 
-  show("simulating SystemC and RTL");
+  show(library ? "simulating SystemC and RTL" : "simulating SystemC");
   SimulationOptions simulation;
   simulation.detail = options.detail;
   simulation.stall_percent = options.stall_percent;
   simulation.stall_seed = options.seed;
-  const Implementation rtl(frame.setup, hardware.pipeline, simulation, &library);
-  const Implementation systemc(frame.setup, hardware.pipeline, simulation, nullptr);
-  Child rtl_child = rtl.start(), systemc_child = systemc.start();
+  Implementation systemc(frame.setup, hardware.pipeline, simulation, nullptr);
+  std::optional<Implementation> rtl;
+  if (library) rtl.emplace(frame.setup, hardware.pipeline, simulation, &*library);
+  if (!options.one_core) {
+    if (rtl) rtl->start();
+    systemc.start();
+  }
 
   const ModelRun model = run_and_hash_model(frame.setup);
   result.set_up = model.frame.triangles;
   result.pixels = model.frame.pixels;
   if (result.pixels == 0) {
-    throw InputError(scene.source, 0,
+    throw InputError(scene->scene.source, 0,
                      "nothing of the scene covers a pixel; look at the camera and the objects");
   }
-  result.accuracy = measure_accuracy(frame.setup, model.frame, options.pictures);
+  result.accuracy = measure_accuracy(frame.setup, model.frame, options.pictures, options.one_core);
   if (options.pictures) {
     result.result_picture = picture_of(model.frame.framebuffer, result.width, result.height,
                                        frame.setup.configuration.channels);
   }
-  const auto finish = [&](const Implementation& implementation, Child& child) {
-    auto found = from_bytes<ImplementationResult>(child.get());
+  const auto finish = [&](Implementation& implementation) {
+    ImplementationResult found = implementation.result();
     if (!same_pixels(found.fingerprint, model.fingerprint)) {
       show("looking for the pixels that differ");
       implementation.locate_mismatches(frame.setup, model.frame.framebuffer, found);
@@ -196,19 +212,18 @@ VerificationResult verify(const Scene& scene, const Hardware& hardware,
     }
     return found;
   };
-  result.systemc = finish(systemc, systemc_child);
+  result.systemc = finish(systemc);
   if (options.effects == EffectsToVerify::both) {
     show("simulating hardware with everything");
     const PreparedFrame full(scene, hardware.formats, hardware.setup, Effects::all);
-    const Implementation all(full.setup, hardware.pipeline, simulation, nullptr);
-    Child child = all.start();
-    auto found = from_bytes<ImplementationResult>(child.get());
+    Implementation all(full.setup, hardware.pipeline, simulation, nullptr);
+    ImplementationResult found = all.result();
     if (found.fingerprint.frame_hash != model.fingerprint.frame_hash) {
       all.locate_mismatches(frame.setup, model.frame.framebuffer, found);
     }
     result.full_hardware = FullHardwareResult{full.setup.configuration, found};
   }
-  result.rtl = finish(rtl, rtl_child);
+  if (rtl) result.rtl = finish(*rtl);
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,14 +21,19 @@ namespace phongpipe {
 // see what leaving effects out saves and that it changes no pixel.
 enum class EffectsToVerify { scene, all, both };
 
+// The RTL that the model is compared with: built with the parameters of the configuration; or none.
+enum class RtlToVerify { native, off };
+
 struct VerificationOptions {
   double budget_ns = 100;  // per shaded pixel, for the whole frame
   Detail detail = Detail::span;
   int stall_percent = 0;
   std::uint32_t seed = 1;  // of the random back-pressure
   EffectsToVerify effects = EffectsToVerify::scene;
+  RtlToVerify rtl = RtlToVerify::native;
   std::filesystem::path rtl_sources;  // folder; empty: the installed RTL
   bool pictures = false;              // whether the result contains pictures
+  bool one_core = false;              // do everything in turn, for callers that run many at once
 };
 
 // The same frame, simulated by SystemC hardware that has every effect. Its picture must be the same
@@ -52,19 +58,21 @@ struct VerificationResult {
   TriangleCounts set_up;            // counts pieces in place of split triangles
   std::uint64_t pixels = 0;         // shaded
   double rom_error = 0;             // largest of the power's tables, as a fraction of full scale
-  ImplementationResult systemc, rtl;
+  ImplementationResult systemc;
+  std::optional<ImplementationResult> rtl;  // none with RtlToVerify::off
   EffectSet effects;
   std::optional<FullHardwareResult> full_hardware;  // with EffectsToVerify::both
   Accuracy accuracy;
   Picture result_picture;  // if requested, like those of `accuracy`
 
-  // Time of the RTL's datapath, and of the whole frame, per shaded pixel.
+  // Time of the RTL's datapath (with RTL only), and of the whole frame, per shaded pixel.
   double datapath_ns_per_pixel() const;
   double frame_ns_per_pixel() const;
-  std::int64_t cycle_difference() const {
-    return rtl.counts.frame_cycles - systemc.counts.frame_cycles;
+  std::int64_t cycle_difference() const {  // with RTL only
+    return rtl->counts.frame_cycles - systemc.counts.frame_cycles;
   }
-  bool same_cycles() const;  // of every pixel
+  bool same_cycles() const;  // of every pixel, in SystemC and RTL; true without RTL
+  bool agrees() const { return systemc.agrees() && (!rtl || rtl->agrees()) && same_cycles(); }
   bool within_budget() const { return frame_ns_per_pixel() <= options.budget_ns; }
   bool passed() const;
 };
@@ -74,7 +82,13 @@ using ShowProgress = std::function<void(const std::string&)>;
 
 // Throws InputError if no pixel is visible, or if the technology has no clock for the
 // configuration.
-VerificationResult verify(const Scene& scene, const Hardware& hardware,
-                          const VerificationOptions& options, const ShowProgress& progress = {});
+VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
+                          const Hardware& hardware, const VerificationOptions& options,
+                          const ShowProgress& progress = {});
+inline VerificationResult verify(const Scene& scene, const Hardware& hardware,
+                                 const VerificationOptions& options,
+                                 const ShowProgress& progress = {}) {
+  return verify(std::make_shared<const PreparedScene>(scene), hardware, options, progress);
+}
 
 }  // namespace phongpipe

@@ -65,7 +65,9 @@ std::string heading(const Page& page, const VerificationResult& r) {
 // The block that has the most to do.
 std::string_view limiting_block(const VerificationResult& r) {
   const SimulationCounts& counts = r.systemc.counts;
-  const std::int64_t busy = r.rtl.counts.datapath_busy_cycles;
+  // Without RTL only the cycles of pixels and tables are known.
+  const std::int64_t busy = r.rtl ? r.rtl->counts.datapath_busy_cycles
+                                  : static_cast<std::int64_t>(r.pixels) + counts.rom_load_cycles;
   if (counts.setup_cycles >= busy) return "setup";
   // A datapath that is occupied for longer than its pixels and tables take waits for its output.
   const auto own = static_cast<double>(r.pixels) + static_cast<double>(counts.rom_load_cycles);
@@ -114,8 +116,8 @@ void report_implementation(Page& page, const char* name, const ImplementationRes
 // The lines that tell what does not hold.
 void report_failures(Page& page, const VerificationResult& r, const ReportStyle& style) {
   report_implementation(page, "SystemC", r.systemc, r);
-  report_implementation(page, "RTL", r.rtl, r);
-  if (r.systemc.agrees() && r.rtl.agrees() && !r.same_cycles()) {
+  if (r.rtl) report_implementation(page, "RTL", *r.rtl, r);
+  if (r.systemc.agrees() && r.rtl && r.rtl->agrees() && !r.same_cycles()) {
     page.line(
         "differs",
         page.toned(
@@ -123,7 +125,7 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
             r.cycle_difference() != 0
                 ? fmt::format("the frame takes {} cycles in SystemC, {} with the RTL",
                               grouped(static_cast<std::uint64_t>(r.systemc.counts.frame_cycles)),
-                              grouped(static_cast<std::uint64_t>(r.rtl.counts.frame_cycles)))
+                              grouped(static_cast<std::uint64_t>(r.rtl->counts.frame_cycles)))
                 : std::string("pixels leave SystemC and RTL in other cycles")));
   }
   if (r.full_hardware && !r.full_hardware->systemc.agrees()) {
@@ -150,9 +152,10 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
 std::string time_text(const Page& page, const VerificationResult& r) {
   const std::string frame =
       fmt::format("{:.2f} of {:.10g} ns a pixel", r.frame_ns_per_pixel(), r.options.budget_ns);
-  return fmt::format("{}; datapath {:.2f}; limited by {}",
+  return fmt::format("{}; {}limited by {}",
                      r.within_budget() ? frame : page.toned(Tone::bad, frame + ", OVER BUDGET"),
-                     r.datapath_ns_per_pixel(), limiting_block(r));
+                     r.rtl ? fmt::format("datapath {:.2f}; ", r.datapath_ns_per_pixel()) : "",
+                     limiting_block(r));
 }
 
 std::string error_text(const VerificationResult& r) {
@@ -188,7 +191,8 @@ void for_each_block_metric(const VerificationResult& r, Visit visit) {
 }
 
 double as_double(const MetricValue& value) {
-  return std::visit([](auto number) { return static_cast<double>(number); }, value);
+  const auto* const whole = std::get_if<std::int64_t>(&value);
+  return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(value);
 }
 
 void report_effects(Page& page, const VerificationResult& r) {
@@ -245,11 +249,9 @@ void report_details(Page& page, const VerificationResult& r) {
 }
 
 ordered_json to_json(const MetricValue& value) {
-  return std::visit(
-      [](auto number) {
-        return std::isfinite(static_cast<double>(number)) ? ordered_json(number) : ordered_json();
-      },
-      value);
+  if (const auto* const whole = std::get_if<std::int64_t>(&value)) return *whole;
+  const auto* const number = std::get_if<double>(&value);
+  return number != nullptr && std::isfinite(*number) ? ordered_json(*number) : ordered_json();
 }
 
 ordered_json effects_json(const VerificationResult& r) {
@@ -298,9 +300,9 @@ std::string report_line(const VerificationResult& r, const ReportStyle& style) {
 std::string report_text(const VerificationResult& r, const ReportStyle& style) {
   Page page(style.color);
   page.plain(heading(page, r));
-  if (r.systemc.agrees() && r.rtl.agrees() && r.same_cycles()) {
+  if (r.agrees()) {
     page.line("same",
-              fmt::format("model = SystemC = RTL, every pixel and every cycle ({})",
+              fmt::format("model = SystemC{}, every pixel and every cycle ({})", r.rtl ? " = RTL" : "",
                           grouped(static_cast<std::uint64_t>(r.systemc.counts.frame_cycles))));
   }
   page.line("time", time_text(page, r));
@@ -332,14 +334,14 @@ ordered_json report_json(const VerificationResult& r) {
     json[ordered_json::json_pointer(std::string(metric.json))] = to_json(metric.value(r));
   }
   json["effects"] = effects_json(r);
-  for (const auto& [name, found] :
-       {std::pair<const char*, const ImplementationResult&>{"systemc", r.systemc},
-        {"rtl", r.rtl}}) {
+  const auto add = [&json](const char* name, const ImplementationResult& found) {
     ordered_json& entry = json["implementations"][name];
     entry["failure"] =
         found.counts.failure.empty() ? ordered_json() : ordered_json(found.counts.failure);
     entry["first_divergence"] = nlohmann::json(found.first_divergence);
-  }
+  };
+  add("systemc", r.systemc);
+  if (r.rtl) add("rtl", *r.rtl);
   return json;
 }
 

@@ -133,7 +133,7 @@ TEST(RandomEffects, NothingDiffersInAnyAccount) {
     try {
       const VerificationResult v = verify(load_scene(file), hardware, options);
       ++shaded;
-      EXPECT_EQ(v.rtl.stream_mismatches + v.rtl.frame_mismatches, 0U);
+      EXPECT_EQ(v.rtl->stream_mismatches + v.rtl->frame_mismatches, 0U);
       EXPECT_EQ(v.systemc.stream_mismatches + v.systemc.frame_mismatches, 0U);
       EXPECT_TRUE(v.same_cycles());
       EXPECT_EQ(v.full_hardware->systemc.frame_mismatches, 0U);

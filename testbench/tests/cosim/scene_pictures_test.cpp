@@ -58,7 +58,7 @@ TEST(GoldenSphere, IsAFlatDiscWithAHighlight) {
   golden.for_each_pixel([&](std::uint32_t triangle, int x, int y, std::size_t index) {
     Color exact;
     const ScreenTriangle& source = golden.frame.geometry().triangles[triangle];
-    PhongTriangle(golden.frame.scene, golden.frame.geometry().materials[source.material], source)
+    PhongTriangle(golden.frame.scene(), golden.frame.geometry().materials[source.material], source)
         .shade(x, y, 1, &exact);
     const std::array<int, 3> color = golden.color(index);
     // Words are rounded to whole LSB. Rounding a cosine near 0.73 to an address changes its power
@@ -117,7 +117,7 @@ Planes planes_of(const std::string& scene) {
   });
   Planes planes;
   for (const auto& [place, value] : sorted) {
-    planes[place[0]][place[1] < shaded.frame.scene.image.width / 2 ? 0 : 1].push_back(value);
+    planes[place[0]][place[1] < shaded.frame.scene().image.width / 2 ? 0 : 1].push_back(value);
   }
   return planes;
 }

@@ -52,7 +52,7 @@ class SeededBug : public ::testing::Test {
 
 TEST_F(SeededBug, NoneWithoutABug) {
   const VerificationResult v = run();
-  EXPECT_EQ(v.rtl.stream_mismatches, 0U);
+  EXPECT_EQ(v.rtl->stream_mismatches, 0U);
   EXPECT_TRUE(v.passed());
 }
 
@@ -70,16 +70,16 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
   EXPECT_EQ(v.systemc.stream_mismatches, 0U);
-  EXPECT_EQ(v.rtl.stream_mismatches, 1U);
-  EXPECT_EQ(v.rtl.frame_mismatches, 1U);
-  ASSERT_TRUE(v.rtl.first_divergence.has_value());
-  EXPECT_EQ(v.rtl.first_divergence->stream_index, brightest);
-  EXPECT_EQ(v.rtl.first_divergence->model, pixel);
-  EXPECT_LT(v.rtl.first_divergence->found.color, pixel.color);
+  EXPECT_EQ(v.rtl->stream_mismatches, 1U);
+  EXPECT_EQ(v.rtl->frame_mismatches, 1U);
+  ASSERT_TRUE(v.rtl->first_divergence.has_value());
+  EXPECT_EQ(v.rtl->first_divergence->stream_index, brightest);
+  EXPECT_EQ(v.rtl->first_divergence->model, pixel);
+  EXPECT_LT(v.rtl->first_divergence->found.color, pixel.color);
   const std::string report = report_text(v, {});
   EXPECT_NE(report.find(fmt::format("triangle {}, x {}, y {}, cycle {}, pixel",
-                                    v.rtl.first_divergence->triangle, pixel.x, pixel.y,
-                                    v.rtl.first_divergence->cycle)),
+                                    v.rtl->first_divergence->triangle, pixel.x, pixel.y,
+                                    v.rtl->first_divergence->cycle)),
             std::string::npos)
       << report;
   EXPECT_NE(report.find("FAILED"), std::string::npos);
@@ -90,17 +90,17 @@ TEST_F(SeededBug, LostPixelsDoNotHangTheHarness) {
        "wire fd_last = fd_remaining == 1 || fd_remaining == 7;");
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
-  EXPECT_GT(v.rtl.stream_mismatches, 0U);
-  EXPECT_NE(v.rtl.counts.failure.find("nothing has moved"), std::string::npos)
-      << v.rtl.counts.failure;
+  EXPECT_GT(v.rtl->stream_mismatches, 0U);
+  EXPECT_NE(v.rtl->counts.failure.find("nothing has moved"), std::string::npos)
+      << v.rtl->counts.failure;
 }
 
 TEST_F(SeededBug, ADeadDatapathIsReportedWithItsQueues) {
   seed("pixel_datapath.sv", "assign span_ready = ", "assign span_ready = 1'b0 && ");
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
-  EXPECT_NE(v.rtl.counts.failure.find("span queue 8 of 8"), std::string::npos)
-      << v.rtl.counts.failure;
+  EXPECT_NE(v.rtl->counts.failure.find("span queue 8 of 8"), std::string::npos)
+      << v.rtl->counts.failure;
 }
 
 TEST_F(SeededBug, PixelsForEverEndTheSimulation) {
@@ -109,10 +109,10 @@ TEST_F(SeededBug, PixelsForEverEndTheSimulation) {
   for (const Detail detail : {Detail::span, Detail::cycle}) {
     const VerificationResult v = run(detail);
     EXPECT_FALSE(v.passed());
-    EXPECT_GT(v.rtl.stream_mismatches, 0U);
-    EXPECT_NE(v.rtl.counts.failure.find("pixels that no span asked for"), std::string::npos)
-        << v.rtl.counts.failure;
-    EXPECT_TRUE(v.rtl.first_divergence.has_value());
+    EXPECT_GT(v.rtl->stream_mismatches, 0U);
+    EXPECT_NE(v.rtl->counts.failure.find("pixels that no span asked for"), std::string::npos)
+        << v.rtl->counts.failure;
+    EXPECT_TRUE(v.rtl->first_divergence.has_value());
   }
 }
 
@@ -120,7 +120,7 @@ TEST_F(SeededBug, ABubbleBetweenSpansIsFoundByTheCycles) {
   seed("pixel_datapath.sv", "assign span_ready = !fd_valid || (s1_ready && fd_last);",
        "assign span_ready = !fd_valid || (s1_ready && fd_last && 1'b0);");
   const VerificationResult v = run();
-  EXPECT_EQ(v.rtl.stream_mismatches, 0U);
+  EXPECT_EQ(v.rtl->stream_mismatches, 0U);
   EXPECT_FALSE(v.same_cycles());
   EXPECT_FALSE(v.passed());
 }
@@ -145,13 +145,13 @@ TEST_F(SeededBug, AFaultOfOnlyTheFirstSimulationStillFails) {
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
   EXPECT_TRUE(v.systemc.agrees());
-  EXPECT_EQ(v.rtl.stream_mismatches, 0U);
-  EXPECT_EQ(v.rtl.frame_mismatches, 0U);
-  EXPECT_FALSE(v.rtl.first_divergence.has_value());
-  EXPECT_EQ(v.rtl.counts.failure, "simulated twice, it differed from the model only once");
+  EXPECT_EQ(v.rtl->stream_mismatches, 0U);
+  EXPECT_EQ(v.rtl->frame_mismatches, 0U);
+  EXPECT_FALSE(v.rtl->first_divergence.has_value());
+  EXPECT_EQ(v.rtl->counts.failure, "simulated twice, it differed from the model only once");
   const std::string report = report_text(v, {});
   EXPECT_NE(report.find("FAILED"), std::string::npos) << report;
-  EXPECT_NE(report.find(v.rtl.counts.failure), std::string::npos) << report;
+  EXPECT_NE(report.find(v.rtl->counts.failure), std::string::npos) << report;
   EXPECT_TRUE(run().passed()) << "the marker is there now";
 }
 
