@@ -120,8 +120,8 @@ DepthCue read_depth_cue(const TomlTable& table) {
 
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& file) {
-  const TomlTable root = TomlTable::read_file(file);
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  const TomlTable root = TomlTable::read_file(file, overrides);
   // Known before the first error, so that "did you mean" has all words.
   for (const char* key :
        {"image", "camera", "shading", "light", "object", "material", "depth_cue"}) {

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "model/scene/scene.h"
 
 namespace phongpipe {
 
 // Parses and checks everything; throws InputError. Unknown and missing keys, wrong types, values
-// out of range and NaN are errors that name file and line.
-Scene load_scene(const std::filesystem::path& file);
+// out of range and NaN are errors that name file and line. `overrides`: path=value, see
+// TomlTable::read_file.
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 }  // namespace phongpipe

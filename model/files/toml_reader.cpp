@@ -133,10 +133,55 @@ std::array<Number, kCount> TomlTable::State::numbers(std::string_view key,
   return result;
 }
 
-TomlTable TomlTable::read_file(const std::filesystem::path& file) {
+namespace {
+
+// The node at a key of a table, or at an index of an array; null if there is none.
+toml::node* child_of(toml::node& node, std::string_view key) {
+  if (toml::table* const table = node.as_table()) return table->get(key);
+  const auto index = parse_integer(key);
+  toml::array* const array = node.as_array();
+  return array != nullptr && index && *index >= 0 ? array->get(static_cast<std::size_t>(*index))
+                                                  : nullptr;
+}
+
+// A table whose only key is `value`.
+toml::table parse_value(const std::string& text) {
+  try {
+    return toml::parse("value = " + text);
+  } catch (const toml::parse_error&) {
+    return toml::table{{"value", text}};
+  }
+}
+
+void apply_override(toml::table& document, const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) throw InputError(fmt::format("{}: write path=value", text));
+  const std::string path = text.substr(0, equals);
+  const std::vector<std::string_view> keys = split(path, '.');
+  toml::node* node = &document;
+  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+    node = child_of(*node, keys[i]);
+    if (node != nullptr) continue;
+    throw InputError(fmt::format("{}: the scene has no {}", text,
+                                 fmt::join(keys.begin(), keys.begin() + static_cast<long>(i) + 1,
+                                           ".")));
+  }
+  toml::table* const table = node->as_table();
+  if (table == nullptr) throw InputError(fmt::format("{}: no such key", text));
+  const toml::table value = parse_value(text.substr(equals + 1));
+  value.get("value")->visit(
+      [&](const auto& found) { table->insert_or_assign(std::string(keys.back()), found); });
+}
+
+}  // namespace
+
+TomlTable TomlTable::read_file(const std::filesystem::path& file,
+                               const std::vector<std::string>& overrides) {
   const std::string text = read_whole_file(file);
   try {
-    auto document = std::make_shared<const toml::table>(toml::parse(text, file.string()));
+    toml::table parsed = toml::parse(text, file.string());
+    for (const std::string& change : overrides) apply_override(parsed, change);
+    auto document = std::make_shared<const toml::table>(std::move(parsed));
     return TomlTable(std::make_shared<State>(State{file, document, document.get(), {}, {}}));
   } catch (const toml::parse_error& error) {
     std::string message(error.description());
@@ -281,6 +326,41 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   std::vector<TomlTable> result;
   for (const toml::node& entry : *array) {
     result.push_back(TomlTable(state_->inner(*entry.as_table(), fmt::format("[[{}]]", key))));
+  }
+  return result;
+}
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> result;
+  for (const auto& [key, node] : *state_->table) result.emplace_back(key.str());
+  // toml++ sorts by name; the file's order is what a reader expects.
+  std::stable_sort(result.begin(), result.end(), [&](const std::string& a, const std::string& b) {
+    return line(a) < line(b);
+  });
+  return result;
+}
+
+std::vector<std::string> TomlTable::values(std::string_view key) const {
+  std::vector<std::string> result;
+  const auto add = [&](const toml::node& node) {
+    if (const auto* text = node.as_string()) {
+      result.push_back(text->get());
+    } else if (const auto* whole = node.as_integer()) {
+      result.push_back(fmt::format("{}", whole->get()));
+    } else if (const auto* number = node.as_floating_point()) {
+      result.push_back(fmt::format("{}", number->get()));
+    } else if (const auto* flag = node.as_boolean()) {
+      result.emplace_back(flag->get() ? "true" : "false");
+    } else {
+      fail(key, fmt::format("'{}' must be a text, a number, or an array of these", key));
+    }
+  };
+  const toml::node& node = state_->require(key);
+  if (const toml::array* array = node.as_array()) {
+    for (const toml::node& item : *array) add(item);
+    if (array->empty()) fail(key, fmt::format("'{}' is empty", key));
+  } else {
+    add(node);
   }
   return result;
 }

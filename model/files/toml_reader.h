@@ -26,7 +26,11 @@ struct NumberRange {  // inclusive
 // A handle to one table of a parsed file; copies share the file and the registered keys.
 class TomlTable {
  public:
-  static TomlTable read_file(const std::filesystem::path& file);
+  // `overrides`: path=value, each of which replaces or adds a key, such as
+  // material.gold.shininess=20 or light.0.color=[1, 1, 1] (the first [[light]]). The value is TOML;
+  // a bare word is a string.
+  static TomlTable read_file(const std::filesystem::path& file,
+                             const std::vector<std::string>& overrides = {});
 
   const std::filesystem::path& file() const;
   unsigned line() const;                      // of the table
@@ -63,6 +67,11 @@ class TomlTable {
   Enum choice(std::string_view key, Choices<Enum> choices, Enum fallback) const {
     return has(key) ? choice(key, choices) : fallback;
   }
+
+  // All keys that the table has, in its order. For tables whose keys are not known beforehand.
+  std::vector<std::string> keys() const;
+  // The text, number or flag, or those of an array, as text.
+  std::vector<std::string> values(std::string_view key) const;
 
   TomlTable table(std::string_view key) const;  // [key]
   std::optional<TomlTable> optional_table(std::string_view key) const;

@@ -23,6 +23,13 @@ struct SettingDescription {
   std::string_view rtl_parameter;         // of pixel_datapath.sv; empty where it has none
 
   std::string name() const { return fmt::format("{}.{}", section, key); }
+  // Whether the setting is meant by `text`: its key, or section and key.
+  bool is_called(std::string_view text) const {
+    if (text.size() < key.size() || text.substr(text.size() - key.size()) != key) return false;
+    const std::string_view before = text.substr(0, text.size() - key.size());
+    return before.empty() || (before.size() == section.size() + 1 && before.back() == '.' &&
+                              before.substr(0, section.size()) == section);
+  }
   // A value as text, as in files and --set.
   std::string text(int value) const {
     return choices.empty() ? fmt::format("{}", value)

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "model/scene/input_error.h"
+#include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
 #include "testbench/methods/curves.h"
 #include "testbench/methods/operation_time.h"
@@ -70,7 +71,7 @@ int compare_methods(const Options& options) {
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   std::string csv;
   std::vector<Scene> scenes;
-  for (const std::string& name : options.scenes) scenes.push_back(load_named_scene(name));
+  for (const std::string& name : options.scenes) scenes.push_back(load_named_scene(name, options.hardware.overrides));
   for (const Scene& scene : scenes) {
     const Comparison comparison = compare(
         scene, hardware, [&](const std::string& what) { progress(what); },

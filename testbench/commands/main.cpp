@@ -56,6 +56,9 @@ int run_program(int argc, char** argv) {
   add_verify(application, run);
   add_render(application, run);
   add_compare(application, run);
+  add_sweep(application, run);
+  add_export(application, run);
+  add_merge(application, run);
   const auto asked_for = [&](const char* flag) {
     return std::any_of(argv + 1, argv + argc,
                        [flag](const char* word) { return word == std::string_view(flag); });

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "model/files/scene_file.h"
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
 #include "testbench/hardware/hardware.h"
@@ -12,14 +11,6 @@
 #include "testbench/system/terminal.h"
 
 namespace phongpipe {
-namespace {}  // namespace
-
-Scene load_named_scene(const std::string& name) {
-  Scene scene = load_scene(find_named(name, installation().scenes, "scene"));
-  scene.source = printable(name);
-  return scene;
-}
-
 std::string settings_help() {
   const Hardware preset = load_hardware("default", {});
   std::string text =
@@ -92,7 +83,8 @@ void HardwareOptions::add_to(CLI::App& command) {
       ->capture_default_str();
   command
       .add_option("--set", overrides,
-                  "key=value: change one setting of the hardware; may be given again")
+                  "key=value: change one setting of the hardware, or scene.… of the scene; may be "
+                  "given again")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command.add_flag("--help-settings",

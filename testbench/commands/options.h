@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "model/scene/scene.h"
 #include "model/shading/methods/power.h"
 #include "testbench/system/terminal.h"
 
@@ -25,12 +24,11 @@ constexpr int kCheckFailed = 1, kBadInput = 2, kToolFailed = 3;
 using Run = std::function<int()>;  // returns the exit status
 
 void add_compare(CLI::App& application, Run& run);
+void add_export(CLI::App& application, Run& run);
+void add_merge(CLI::App& application, Run& run);
 void add_render(CLI::App& application, Run& run);
+void add_sweep(CLI::App& application, Run& run);
 void add_verify(CLI::App& application, Run& run);
-
-// Loads a scene from a file, or a shipped scene by its name; messages refer to it by `name`. Throws
-// InputError.
-Scene load_named_scene(const std::string& name);
 
 // The text of --help-settings.
 std::string settings_help();

@@ -11,6 +11,7 @@
 #include "model/fixed/prepared_frame.h"
 #include "model/scene/input_error.h"
 #include "model/scene/subdivision.h"
+#include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
 #include "testbench/drawing/pictures.h"
 #include "testbench/hardware/hardware.h"
@@ -117,7 +118,7 @@ int render(const Options& options) {
   check(options, arithmetic);
   Progress progress;
   progress("reading the scene");
-  const Scene scene = load_named_scene(options.scene);
+  const Scene scene = load_named_scene(options.scene, options.hardware.overrides);
   const Geometry geometry = make_geometry(scene);
   progress("shading");
   std::vector<Color> colors;

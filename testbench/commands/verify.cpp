@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "model/scene/input_error.h"
+#include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
 #include "testbench/reports/verification_report.h"
 #include "testbench/system/output_file.h"
@@ -59,7 +60,7 @@ class Verifier {
   int run() {
     // A mistake in the last scene must not cost the work on those before.
     std::vector<Scene> scenes;
-    for (const std::string& name : options_.scenes) scenes.push_back(load_named_scene(name));
+    for (const std::string& name : options_.scenes) scenes.push_back(load_named_scene(name, options_.hardware.overrides));
     check_outputs();
     for (std::size_t i = 0; i < scenes.size(); ++i) verify_scene(scenes[i], names_[i]);
     if (scenes.size() > 1 && options_.json != "-") {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace phongpipe {
 namespace {
 
@@ -178,6 +181,14 @@ std::vector<Metric> all_metrics() {
 const std::vector<Metric>& metrics() {
   static const std::vector<Metric> all = all_metrics();
   return all;
+}
+
+std::size_t metric_index(std::string_view name) {
+  const auto& all = metrics();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Metric& metric) { return metric.name == name; });
+  if (found == all.end()) throw std::out_of_range(fmt::format("no metric {}", name));
+  return static_cast<std::size_t>(found - all.begin());
 }
 
 std::string metric_text(const MetricValue& value) {

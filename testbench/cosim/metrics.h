@@ -26,6 +26,8 @@ struct Metric {
 };
 
 const std::vector<Metric>& metrics();
+// The place of a metric in metrics(). Throws std::out_of_range if there is none of that name.
+std::size_t metric_index(std::string_view name);
 
 // The value for people: whole numbers with separators, others with 4 digits, - for no value.
 std::string metric_text(const MetricValue& value);

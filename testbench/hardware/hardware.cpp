@@ -78,11 +78,8 @@ void apply_override(Hardware& hardware, const std::string& text, std::string& te
     technology = value;
     return;
   }
-  std::vector<std::string> known = {"technology"};
   for (const HardwareSetting& setting : hardware_settings()) {
-    known.emplace_back(setting.name());
-    known.emplace_back(setting.key);
-    if (key != setting.key && key != setting.name()) continue;
+    if (!setting.is_called(key)) continue;
     const ParsedValue parsed = parse_value(setting, value);
     if (!parsed.value) throw InputError(fmt::format("--set {}: {}", text, parsed.complaint));
     setting.put(hardware, *parsed.value);
@@ -92,6 +89,11 @@ void apply_override(Hardware& hardware, const std::string& text, std::string& te
       throw InputError(fmt::format("--set {}: {}", text, error.what()));
     }
     return;
+  }
+  std::vector<std::string> known = {"technology"};
+  for (const HardwareSetting& setting : hardware_settings()) {
+    known.emplace_back(setting.name());
+    known.emplace_back(setting.key);
   }
   const std::string close = closest_word(key, known);
   throw InputError(fmt::format("--set {}: unknown key; {}", text,
@@ -131,8 +133,18 @@ Hardware load_hardware(const std::string& name, const std::vector<std::string>& 
   const auto file = find_named(name, installation().hardware / "presets", "preset");
   hardware.name = file.stem().string();
   read_file(hardware, file, technology);
-  for (const std::string& text : overrides) apply_override(hardware, text, technology);
   hardware.technology = load_technology(technology);
+  return override_hardware(std::move(hardware), overrides);
+}
+
+Hardware override_hardware(Hardware hardware, const std::vector<std::string>& overrides) {
+  std::string technology;
+  for (const std::string& text : overrides) {
+    if (text.compare(0, kSceneSection.size(), kSceneSection) != 0) {
+      apply_override(hardware, text, technology);
+    }
+  }
+  if (!technology.empty()) hardware.technology = load_technology(technology);
   return hardware;
 }
 

@@ -27,8 +27,12 @@ struct Hardware {
 const Settings<Hardware>& hardware_settings();
 
 // `name`: a preset or a file. `overrides`: key=value, with or without the section, or
-// technology=card. Throws InputError.
+// technology=card; keys that begin with kSceneSection are left to the scene. Throws InputError.
 Hardware load_hardware(const std::string& name, const std::vector<std::string>& overrides);
+Hardware override_hardware(Hardware hardware, const std::vector<std::string>& overrides);
+
+// Keys of --set that change the scene: scene.light.0.color=…
+constexpr std::string_view kSceneSection = "scene.";
 
 // Replaces the settings left to the scene (number of channels, source of the gate) by those that
 // the scene requires.

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "testbench/cosim/metrics.h"
+#include "testbench/cosim/metrics_json.h"
 #include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
 
@@ -248,19 +248,13 @@ void report_details(Page& page, const VerificationResult& r) {
   }
 }
 
-ordered_json to_json(const MetricValue& value) {
-  if (const auto* const whole = std::get_if<std::int64_t>(&value)) return *whole;
-  const auto* const number = std::get_if<double>(&value);
-  return number != nullptr && std::isfinite(*number) ? ordered_json(*number) : ordered_json();
-}
-
 ordered_json effects_json(const VerificationResult& r) {
   ordered_json json = {{"used", r.effects.used}, {"left_out", r.effects.left_out}};
   for_each_block_metric(r,
                         [&](const Metric& metric, const MetricValue& own, const MetricValue& full) {
-                          json["built"][std::string(metric.name)] = to_json(own);
+                          json["built"][std::string(metric.name)] = own;
                           if (r.full_hardware)
-                            json["everything"][std::string(metric.name)] = to_json(full);
+                            json["everything"][std::string(metric.name)] = full;
                         });
   json["built"]["modules"] = r.systemc.counts.modules;
   if (r.full_hardware) {
@@ -331,7 +325,7 @@ ordered_json report_json(const VerificationResult& r) {
                        {"notes", r.notes}};
   for (const Metric& metric : metrics()) {
     if (metric.json.empty()) continue;
-    json[ordered_json::json_pointer(std::string(metric.json))] = to_json(metric.value(r));
+    json[ordered_json::json_pointer(std::string(metric.json))] = metric.value(r);
   }
   json["effects"] = effects_json(r);
   const auto add = [&json](const char* name, const ImplementationResult& found) {

@@ -24,7 +24,7 @@ const Installation& installation() {
                       shared.string()));
     }
     return Installation{shared / "hw", shared / "rtl", shared / "include", shared / "scenes",
-                        prefix / "lib" / "phongpipe"};
+                        shared / "sweeps", prefix / "lib" / "phongpipe"};
   }();
   return found;
 }

@@ -87,6 +87,11 @@ int exit_status(int wait_status) {
   return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128;
 }
 
+std::string ending_text(int wait_status) {
+  return WIFSIGNALED(wait_status) ? fmt::format("signal {}", WTERMSIG(wait_status))
+                                  : fmt::format("status {}", WEXITSTATUS(wait_status));
+}
+
 // What a program is started with; made before the fork, after which nothing may be allocated.
 struct Start {
   std::vector<char*> arguments;
@@ -218,10 +223,8 @@ std::string Child::get() {
   const int status = wait_for(process_);
   process_ = -1;
   if (status != 0 || text.empty()) {
-    throw ToolError(fmt::format("a child process ended without a result ({})",
-                                WIFSIGNALED(status)
-                                    ? fmt::format("signal {}", WTERMSIG(status))
-                                    : fmt::format("status {}", WEXITSTATUS(status))));
+    throw ToolError(
+        fmt::format("a child process ended without a result ({})", ending_text(status)));
   }
   std::string rest = text.substr(1);
   switch (text.front()) {
@@ -236,6 +239,70 @@ std::string Child::get() {
     default:
       return rest;
   }
+}
+
+namespace {
+
+// Each message is sent after its size.
+void send_message(int file, const std::string& message) {
+  const std::uint64_t size = message.size();
+  std::string bytes(sizeof size, '\0');
+  std::memcpy(bytes.data(), &size, sizeof size);
+  write_all(file, bytes + message);
+}
+
+}  // namespace
+
+Worker::Worker(const std::function<void(const Send&)>& work) {
+  const Pipe messages = make_pipe();
+  const pid_t parent = getpid();
+  process_ = fork_or_throw();
+  if (process_ == 0) {
+    end_with_parent(parent, SIGKILL);
+    std::signal(SIGINT, SIG_IGN);
+    close(messages.read_end);
+    int status = 0;
+    try {
+      work([&](const std::string& message) { send_message(messages.write_end, message); });
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "{}\n", error.what());
+      status = 1;
+    }
+    std::fflush(nullptr);
+    _exit(status);  // the parent's destructors and exit handlers are the parent's
+  }
+  close(messages.write_end);
+  pipe_ = messages.read_end;
+}
+
+Worker::~Worker() {
+  close(pipe_);
+  if (process_ < 0) return;
+  kill(process_, SIGKILL);
+  wait_for(process_);
+}
+
+std::vector<std::string> Worker::receive() {
+  std::array<char, 65536> buffer{};
+  const ssize_t count = read(pipe_, buffer.data(), buffer.size());
+  if (count > 0) received_.append(buffer.data(), static_cast<std::size_t>(count));
+  ended_ = count == 0 || (count < 0 && errno != EINTR);
+  std::vector<std::string> messages;
+  std::size_t at = 0;
+  for (std::uint64_t size = 0; received_.size() - at >= sizeof size; at += size) {
+    std::memcpy(&size, received_.data() + at, sizeof size);
+    if (received_.size() - at - sizeof size < size) break;
+    at += sizeof size;
+    messages.push_back(received_.substr(at, size));
+  }
+  received_.erase(0, at);
+  return messages;
+}
+
+std::string Worker::failure() {
+  const int status = wait_for(process_);
+  process_ = -1;
+  return status == 0 ? std::string() : ending_text(status);
 }
 
 }  // namespace phongpipe

@@ -37,4 +37,30 @@ class Child {
   int pipe_ = -1;
 };
 
+// Runs `work` in a child process that sends messages, in parallel with the caller. The child ignores
+// SIGINT: Ctrl-C is for the parent to answer.
+class Worker {
+ public:
+  using Send = std::function<void(const std::string& message)>;
+
+  explicit Worker(const std::function<void(const Send&)>& work);
+  ~Worker();  // kills the child if it still runs
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  int file() const { return pipe_; }  // for poll(): readable when receive() would not block
+  // Waits until something has come; returns the whole messages of it.
+  std::vector<std::string> receive();
+  bool ended() const { return ended_; }  // the child has sent its last message
+  // Why the child ended without finishing its work, such as "signal 11"; empty if it finished. Call
+  // it once ended().
+  std::string failure();
+
+ private:
+  int process_ = -1;
+  int pipe_ = -1;
+  std::string received_;  // the start of a message
+  bool ended_ = false;
+};
+
 }  // namespace phongpipe

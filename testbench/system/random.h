@@ -17,13 +17,17 @@ class Random {
 
   std::int64_t bits() { return static_cast<std::int64_t>(generator_()); }  // 64 of them
 
-  // From low to high, both included and equally likely.
-  int integer(int low, int high) {
-    const auto count = static_cast<std::uint64_t>(std::int64_t{high} - low) + 1;
+  // From 0 to count − 1, equally likely.
+  std::uint64_t below(std::uint64_t count) {
     const std::uint64_t surplus = (0 - count) % count;  // 2^64 modulo count
     std::uint64_t value = generator_();
     while (value < surplus) value = generator_();
-    return static_cast<int>(low + static_cast<std::int64_t>(value % count));
+    return value % count;
+  }
+  // From low to high, both included and equally likely.
+  int integer(int low, int high) {
+    const auto count = static_cast<std::uint64_t>(std::int64_t{high} - low) + 1;
+    return static_cast<int>(low + static_cast<std::int64_t>(below(count)));
   }
   // In steps of 2^-53 of the range. std::fma rounds exactly once, whatever the compiler.
   double uniform(double low, double high) {

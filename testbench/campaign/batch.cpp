@@ -1,0 +1,65 @@
+#include "testbench/campaign/batch.h"
+
+#include <sys/resource.h>
+
+#include <new>
+
+#include "model/scene/input_error.h"
+#include "testbench/cosim/metrics_json.h"
+#include "testbench/system/record_json.h"
+#include "testbench/system/tool_error.h"
+
+namespace phongpipe {
+namespace {
+
+void limit_memory([[maybe_unused]] int mib) {
+#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes of addresses
+  rlimit limit{};
+  limit.rlim_cur = limit.rlim_max = static_cast<rlim_t>(mib) << 20;
+  setrlimit(RLIMIT_AS, &limit);
+#endif
+}
+
+RunResult crashed(const std::string& message, const std::string& bucket) {
+  RunResult result;
+  result.outcome = Outcome::crashed;
+  result.message = message;
+  result.bucket = bucket;
+  return result;
+}
+
+RunResult result_of(const ResolvedRun& run, const std::shared_ptr<const PreparedScene>& scene) {
+  try {
+    return summary_of(verify(scene, run.hardware, run.options));
+  } catch (const InputError& error) {
+    return refused(error.what());
+  } catch (const std::bad_alloc&) {
+    return crashed("out of memory", "memory");
+  } catch (const ToolError& error) {
+    return crashed(error.what(), "tool");
+  } catch (const std::exception& error) {
+    return crashed(error.what(), "exception");
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<Worker> start_batch(std::vector<ResolvedRun> runs,
+                                    std::shared_ptr<const PreparedScene> scene, int memory_mib,
+                                    const volatile bool* stop) {
+  return std::make_unique<Worker>(
+      [runs = std::move(runs), scene = std::move(scene), memory_mib, stop](const auto& send) {
+        limit_memory(memory_mib);
+        for (const ResolvedRun& run : runs) {
+          if (*stop) return;
+          send(to_bytes(BatchMessage{false, run.index, {}}));
+          send(to_bytes(BatchMessage{true, run.index, result_of(run, scene)}));
+        }
+      });
+}
+
+BatchMessage to_batch_message(const std::string& bytes) {
+  return from_bytes<BatchMessage>(bytes);
+}
+
+}  // namespace phongpipe

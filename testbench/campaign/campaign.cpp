@@ -1,0 +1,382 @@
+#include "testbench/campaign/campaign.h"
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <map>
+#include <set>
+#include <thread>
+#include <tuple>
+
+#include "model/scene/input_error.h"
+#include "testbench/campaign/batch.h"
+#include "testbench/cases/named_scene.h"
+#include "testbench/cosim/scene_hash.h"
+#include "testbench/system/tool_error.h"
+
+namespace phongpipe {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// A flag in memory that we share with our workers.
+class SharedFlag {
+ public:
+  SharedFlag()
+      : flag_(static_cast<volatile bool*>(mmap(nullptr, sizeof(bool), PROT_READ | PROT_WRITE,
+                                               MAP_SHARED | MAP_ANONYMOUS, -1, 0))) {
+    if (flag_ == MAP_FAILED) throw ToolError("no memory to share with workers");
+  }
+  ~SharedFlag() { munmap(const_cast<bool*>(flag_), sizeof(bool)); }
+  SharedFlag(const SharedFlag&) = delete;
+  SharedFlag& operator=(const SharedFlag&) = delete;
+
+  void set() { *flag_ = true; }
+  const volatile bool* get() const { return flag_; }
+
+ private:
+  volatile bool* flag_;
+};
+
+// Loads each scene and each preset once. The scene of a run depends on its name and on those of its
+// settings that begin with `scene.`.
+class Loader {
+ public:
+  struct LoadedScene {
+    Scene scene;
+    std::uint64_t hash = 0;
+    std::weak_ptr<const PreparedScene> prepared;  // as long as someone uses it
+  };
+
+  // Throws InputError.
+  LoadedScene& scene(const RunRequest& request) {
+    std::string key = request.scene;
+    for (const std::string& setting : request.settings) {
+      if (setting.compare(0, kSceneSection.size(), kSceneSection) == 0) key += "\n" + setting;
+    }
+    const auto found = scenes_.find(key);
+    if (found != scenes_.end()) return found->second;
+    LoadedScene loaded;
+    loaded.scene = load_named_scene(request.scene, request.settings);
+    loaded.hash = scene_hash(loaded.scene);
+    return scenes_.emplace(key, std::move(loaded)).first->second;
+  }
+
+  Hardware hardware(const RunRequest& request) {
+    auto found = presets_.find(request.hardware);
+    if (found == presets_.end()) {
+      found = presets_.emplace(request.hardware, load_hardware(request.hardware, {})).first;
+    }
+    return override_hardware(found->second, request.settings);
+  }
+
+ private:
+  std::map<std::string, LoadedScene> scenes_;
+  std::map<std::string, Hardware> presets_;
+};
+
+// A run that is not stored yet.
+struct PendingRun {
+  ResolvedRun resolved;
+  Loader::LoadedScene* scene = nullptr;
+};
+
+class Campaign {
+ public:
+  Campaign(const std::vector<CampaignRun>& runs, const CampaignOptions& options, Store& store,
+           const ShowCampaign& show, const std::function<bool()>& should_stop)
+      : runs_(runs),
+        options_(options),
+        store_(store),
+        show_(show),
+        should_stop_(should_stop),
+        stored_(runs.size()) {
+    jobs_ = options.jobs > 0 ? static_cast<std::size_t>(options.jobs)
+                             : std::max(1U, std::thread::hardware_concurrency());
+  }
+
+  CampaignResult run() {
+    resolve();
+    start_ = Clock::now();
+    while (!workers_.empty() || (!queue_.empty() && !stopping_)) {
+      while (workers_.size() < jobs_ && !queue_.empty() && !stopping_) start_worker();
+      wait_for_messages();
+      end_late_workers();
+      tell();
+      if (!stopping_ && should_stop_()) stop();
+    }
+    flush();
+    tell();
+    result_.interrupted = stopping_;
+    return std::move(result_);
+  }
+
+ private:
+  // A worker with the runs that it has not finished.
+  struct ActiveWorker {
+    std::unique_ptr<Worker> worker;
+    std::deque<PendingRun> runs;
+    Clock::time_point since;  // when the last message came
+  };
+
+  // Sorts out what is stored, what is refused at once, and what is to be done.
+  void resolve() {
+    const auto known = store_.known();
+    std::set<std::string> seen;
+    std::vector<StoredRun> refusals;
+    std::vector<PendingRun> pending;
+    std::uint64_t refused_before = 0;
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      const RunRequest& request = runs_[i].request;
+      StoredRun& stored = stored_[i];
+      PendingRun run;
+      std::string reason;
+      try {
+        run.scene = &loader_.scene(request);
+        run.resolved = {i, loader_.hardware(request), request.options};
+        run.resolved.options.one_core = true;
+        stored.text = canonical_text(run.scene->hash, run.resolved.hardware, request.options,
+                                     options_.limits);
+      } catch (const InputError& error) {
+        reason = error.what();
+        stored.text = command_of(request) + "\n";
+      }
+      stored.identity = identity_of(stored.text);
+      if (!in_shard(stored.identity) || !seen.insert(stored.identity).second) continue;
+      stored.command = command_of(request);
+      stored.scene = request.scene;
+      stored.hardware = request.hardware;
+      stored.values = runs_[i].values;
+      ++result_.progress.total;
+      const auto found = known.find(stored.identity);
+      if (found != known.end() && is_enough(found->second, request.options)) {
+        ++result_.progress.known;
+        refused_before += found->second.outcome == Outcome::refused ? 1 : 0;
+      } else if (!reason.empty()) {
+        stored.result = refused(reason);
+        refusals.push_back(stored);
+        ++result_.progress.refused;
+      } else {
+        pending.push_back(std::move(run));
+      }
+    }
+    if (pending.empty() && !refusals.empty() &&
+        result_.progress.refused + refused_before == result_.progress.total) {
+      throw InputError(refusals.front().result.message);
+    }
+    store_.put(refusals);
+    // Runs that share a scene stand together, in the order of the plan.
+    std::stable_sort(pending.begin(), pending.end(), [this](const auto& a, const auto& b) {
+      return order_of(a.scene) < order_of(b.scene);
+    });
+    for (PendingRun& run : pending) queue_.push_back(std::move(run));
+  }
+
+  std::size_t order_of(const Loader::LoadedScene* scene) {
+    return order_.emplace(scene, order_.size()).first->second;
+  }
+
+  // A shard holds every run of some identities, whatever else the plan contains.
+  bool in_shard(const std::string& identity) const {
+    const auto shards = static_cast<std::uint64_t>(options_.shards);
+    return std::stoull(identity, nullptr, 16) % shards ==
+           static_cast<std::uint64_t>(options_.shard) - 1;
+  }
+
+  bool is_enough(const KnownRun& known, const VerificationOptions& wanted) const {
+    if (known.outcome == Outcome::passed) {
+      return known.verified_by >= (wanted.rtl == RtlToVerify::off ? VerifiedBy::model
+                                                                  : VerifiedBy::native);
+    }
+    return known.outcome == Outcome::refused || !options_.retry_failed;
+  }
+
+  void start_worker() {
+    // Smaller batches towards the end, so that all workers end at about the same time.
+    constexpr std::size_t kLargestBatch = 16;
+    const std::size_t share = queue_.size() / (2 * jobs_);
+    const std::size_t size = one_by_one_ > 0 ? 1 : std::clamp<std::size_t>(share, 1, kLargestBatch);
+    ActiveWorker active;
+    Loader::LoadedScene& scene = *queue_.front().scene;
+    std::vector<ResolvedRun> batch;
+    while (!queue_.empty() && batch.size() < size && queue_.front().scene == &scene) {
+      batch.push_back(queue_.front().resolved);
+      active.runs.push_back(std::move(queue_.front()));
+      queue_.pop_front();
+    }
+    one_by_one_ -= std::min(one_by_one_, batch.size());
+    std::shared_ptr<const PreparedScene> prepared = scene.prepared.lock();
+    if (!prepared) {
+      try {
+        prepared = std::make_shared<const PreparedScene>(scene.scene);
+      } catch (const InputError& error) {
+        for (const PendingRun& run : active.runs) record(run.resolved.index, refused(error.what()), 0);
+        return;
+      }
+      scene.prepared = prepared;
+    }
+    last_scene_ = prepared;
+    active.worker = start_batch(std::move(batch), prepared, options_.limits.memory_mib, stop_.get());
+    active.since = Clock::now();
+    workers_.push_back(std::move(active));
+  }
+
+  void wait_for_messages() {
+    std::vector<pollfd> files;
+    for (const ActiveWorker& active : workers_) files.push_back({active.worker->file(), POLLIN, 0});
+    constexpr int kMilliseconds = 100;
+    if (poll(files.data(), files.size(), kMilliseconds) <= 0) return;
+    std::vector<StoredRun> finished;
+    for (std::size_t i = files.size(); i-- > 0;) {
+      if (files[i].revents == 0) continue;
+      ActiveWorker& active = workers_[i];
+      for (const std::string& bytes : active.worker->receive()) {
+        take(active, to_batch_message(bytes));
+      }
+      if (active.worker->ended()) end(i);
+    }
+    flush();
+  }
+
+  void take(ActiveWorker& active, const BatchMessage& message) {
+    if (message.finished) {
+      record(message.index, message.result, seconds_since(active.since));
+      active.runs.pop_front();
+    }
+    active.since = Clock::now();
+  }
+
+  // A worker has ended: the runs that it has not finished are done one by one, so that one that
+  // crashes costs only itself.
+  void end(std::size_t i) {
+    ActiveWorker active = std::move(workers_[i]);
+    workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
+    const std::string failure = active.worker->failure();
+    if (!failure.empty() && active.runs.size() == 1) {
+      RunResult crash;
+      crash.message = fmt::format("the process that did the run ended with {}", failure);
+      crash.bucket = failure;
+      record(active.runs.front().resolved.index, crash, seconds_since(active.since));
+      return;
+    }
+    one_by_one_ += active.runs.size();
+    while (!active.runs.empty()) {
+      queue_.push_front(std::move(active.runs.back()));
+      active.runs.pop_back();
+    }
+  }
+
+  void end_late_workers() {
+    for (std::size_t i = workers_.size(); i-- > 0;) {
+      ActiveWorker& active = workers_[i];
+      const double seconds = seconds_since(active.since);
+      if (seconds <= options_.limits.seconds || active.runs.empty()) continue;
+      RunResult late;
+      late.outcome = Outcome::timed_out;
+      late.message = fmt::format("not done after {} s", options_.limits.seconds);
+      late.bucket = "time";
+      record(active.runs.front().resolved.index, late, seconds);
+      active.runs.pop_front();
+      while (!active.runs.empty()) {
+        queue_.push_front(std::move(active.runs.back()));
+        active.runs.pop_back();
+      }
+      workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));  // kills it
+    }
+    flush();
+  }
+
+  void record(std::size_t index, const RunResult& result, double seconds) {
+    StoredRun& stored = stored_[index];
+    stored.result = result;
+    stored.seconds = seconds;
+    CampaignProgress& progress = result_.progress;
+    switch (result.outcome) {
+      case Outcome::passed:
+        ++progress.passed;
+        compare_with_best(result);
+        break;
+      case Outcome::failed:
+        ++progress.failed;
+        break;
+      case Outcome::refused:
+        ++progress.refused;
+        break;
+      case Outcome::crashed:
+        ++progress.crashed;
+        break;
+      case Outcome::timed_out:
+        ++progress.timed_out;
+        break;
+    }
+    if (result.outcome != Outcome::passed && result.outcome != Outcome::refused) {
+      result_.not_passed.push_back(stored);
+      if (options_.fail_fast) stop();
+    }
+    finished_.push_back(std::move(stored));
+  }
+
+  void compare_with_best(const RunResult& result) {
+    static const std::size_t error = metric_index("max_lsb"),
+                             time = metric_index("frame_ns_per_pixel");
+    const BestRun run{std::get<double>(result.metrics[error]),
+                      std::get<double>(result.metrics[time])};
+    std::optional<BestRun>& best = result_.progress.best;
+    if (!best || std::tie(run.max_lsb, run.frame_ns_per_pixel) <
+                     std::tie(best->max_lsb, best->frame_ns_per_pixel)) {
+      best = run;
+    }
+  }
+
+  void flush() {
+    store_.put(finished_);
+    finished_.clear();
+  }
+
+  void stop() {
+    stopping_ = true;
+    stop_.set();
+  }
+
+  void tell() {
+    result_.progress.seconds = seconds_since(start_);
+    show_(result_.progress);
+  }
+
+  const std::vector<CampaignRun>& runs_;
+  const CampaignOptions& options_;
+  Store& store_;
+  const ShowCampaign& show_;
+  const std::function<bool()>& should_stop_;
+  std::size_t jobs_ = 1;
+  Loader loader_;
+  std::map<const Loader::LoadedScene*, std::size_t> order_;
+  std::vector<StoredRun> stored_;     // by index of the run; emptied once it is recorded
+  std::deque<PendingRun> queue_;
+  std::size_t one_by_one_ = 0;        // runs at the front of the queue that are batches of one
+  std::vector<ActiveWorker> workers_;
+  std::vector<StoredRun> finished_;   // not stored yet
+  std::shared_ptr<const PreparedScene> last_scene_;  // keeps it for the next batch
+  SharedFlag stop_;
+  bool stopping_ = false;
+  Clock::time_point start_;
+  CampaignResult result_;
+};
+
+}  // namespace
+
+CampaignResult run_campaign(const std::vector<CampaignRun>& runs, const CampaignOptions& options,
+                            Store& store, const ShowCampaign& show,
+                            const std::function<bool()>& should_stop) {
+  return Campaign(runs, options, store, show, should_stop).run();
+}
+
+}  // namespace phongpipe

@@ -1,0 +1,58 @@
+// Does the runs of a campaign on all cores, and records their results as they come.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "testbench/campaign/store.h"
+
+namespace phongpipe {
+
+// A run to do.
+struct CampaignRun {
+  RunRequest request;
+  std::vector<std::pair<std::string, std::string>> values;  // of keys that vary
+};
+
+struct CampaignOptions {
+  int jobs = 0;  // runs at once; 0: one for each core
+  int shard = 1, shards = 1;
+  RunLimits limits;
+  bool retry_failed = false;  // runs that failed, crashed or took too long are done again
+  bool fail_fast = false;     // no new runs after the first that failed or crashed
+};
+
+// The run with the least error of those that passed.
+struct BestRun {
+  double max_lsb = 0, frame_ns_per_pixel = 0;
+};
+
+// State of a campaign.
+struct CampaignProgress {
+  std::uint64_t total = 0;  // runs of the shard
+  std::uint64_t known = 0;  // of them that were stored before
+  std::uint64_t passed = 0, failed = 0, refused = 0, crashed = 0, timed_out = 0;  // done now
+  double seconds = 0;  // since the first run was begun
+  std::optional<BestRun> best;  // of those done now
+
+  std::uint64_t done() const { return passed + failed + refused + crashed + timed_out; }
+};
+
+struct CampaignResult {
+  CampaignProgress progress;
+  bool interrupted = false;  // by Ctrl-C, or by fail_fast
+  std::vector<StoredRun> not_passed;  // failed, crashed or timed out now
+};
+
+using ShowCampaign = std::function<void(const CampaignProgress&)>;
+
+// Does all runs that `store` does not have. `should_stop` is asked often; once it is true, the runs
+// in flight are finished and no others are begun. Throws InputError if every run of the campaign is
+// refused.
+CampaignResult run_campaign(const std::vector<CampaignRun>& runs, const CampaignOptions& options,
+                            Store& store, const ShowCampaign& show,
+                            const std::function<bool()>& should_stop);
+
+}  // namespace phongpipe

@@ -1,0 +1,19 @@
+// The Pareto front of points by two measures, both the better the smaller they are.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace phongpipe {
+
+struct ParetoPoint {
+  double a = 0, b = 0;
+};
+
+// The indices of the points that no other point beats: none is at most as large in both measures
+// and smaller in one. Equal points stand on the front together. Points without a value are never on
+// it. Sorted by a, then by index.
+std::vector<std::size_t> pareto_front(const std::vector<std::optional<ParetoPoint>>& points);
+
+}  // namespace phongpipe

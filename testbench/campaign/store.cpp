@@ -1,0 +1,364 @@
+#include "testbench/campaign/store.h"
+
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "model/files/text_file.h"
+#include "model/scene/input_error.h"
+#include "testbench/system/terminal.h"
+#include "testbench/system/tool_error.h"
+
+namespace phongpipe {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kApplicationId = 0x70686f67;  // "phog"
+constexpr int kSchemaVersion = 1;
+
+// Columns of the table `runs` before those of keys and metrics.
+constexpr std::string_view kFixedColumns[] = {
+    "identity", "text",    "command",     "scene",              "hardware", "outcome",
+    "message",  "bucket",  "verified_by", "configuration_hash", "seconds"};
+
+std::string quoted_name(std::string_view name) {
+  std::string result = "\"";
+  for (const char c : name) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+template <typename Enum, int kCount>
+Enum from_name(const std::string& text) {
+  for (int i = 0; i < kCount; ++i) {
+    if (name(static_cast<Enum>(i)) == text) return static_cast<Enum>(i);
+  }
+  throw InputError(fmt::format("unknown word {}", printable(text)));
+}
+Outcome outcome_from(const std::string& text) {
+  return from_name<Outcome, 5>(text);
+}
+VerifiedBy verified_by_from(const std::string& text) {
+  return from_name<VerifiedBy, 3>(text);
+}
+
+// Runs `work`; errors of SQLite become ours, and name the file.
+template <typename Work>
+auto guarded(const fs::path& file, Work work) -> decltype(work()) {
+  try {
+    return work();
+  } catch (const SQLite::Exception& error) {
+    const std::string name = printable(file.string());
+    switch (error.getErrorCode()) {
+      case SQLITE_BUSY:
+      case SQLITE_LOCKED:
+        throw InputError(fmt::format("{}: in use by another process; wait for it, or give it a file "
+                                     "of its own",
+                                     name));
+      case SQLITE_NOTADB:
+      case SQLITE_CORRUPT:
+      case SQLITE_FORMAT:
+        throw InputError(fmt::format("{}: no database, or a damaged one ({})", name, error.what()));
+      case SQLITE_CANTOPEN:
+      case SQLITE_READONLY:
+      case SQLITE_PERM:
+        throw InputError(fmt::format("{}: cannot be opened for this ({})", name, error.what()));
+      default:
+        throw ToolError(fmt::format("{}: {}", name, error.what()));
+    }
+  }
+}
+
+std::vector<std::string> first_column(const SQLite::Database& database, const std::string& query) {
+  SQLite::Statement statement(const_cast<SQLite::Database&>(database), query);
+  std::vector<std::string> texts;
+  while (statement.executeStep()) texts.push_back(statement.getColumn(0).getString());
+  return texts;
+}
+
+std::set<std::string> columns_of_runs(SQLite::Database& database) {
+  SQLite::Statement statement(database, "SELECT name FROM pragma_table_info('runs')");
+  std::set<std::string> names;
+  while (statement.executeStep()) names.insert(statement.getColumn(0).getString());
+  return names;
+}
+
+void add_column(SQLite::Database& database, const std::set<std::string>& present,
+                std::string_view name) {
+  // Without a type, so that a number stays a number and a text a text.
+  if (present.count(std::string(name)) == 0) {
+    database.exec(fmt::format("ALTER TABLE runs ADD COLUMN {}", quoted_name(name)));
+  }
+}
+
+void create_schema(SQLite::Database& database, const std::string& kind) {
+  database.exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
+  database.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
+  database.exec("CREATE TABLE about (kind TEXT NOT NULL)");
+  SQLite::Statement insert(database, "INSERT INTO about VALUES (?)");
+  insert.bind(1, kind);
+  insert.exec();
+  database.exec("CREATE TABLE keys (name TEXT PRIMARY KEY)");
+  database.exec("CREATE TABLE shards (name TEXT PRIMARY KEY)");
+  database.exec(
+      "CREATE TABLE runs (identity TEXT PRIMARY KEY, text TEXT NOT NULL, command TEXT NOT NULL, "
+      "scene TEXT NOT NULL, hardware TEXT NOT NULL, outcome TEXT NOT NULL, message TEXT NOT NULL, "
+      "bucket TEXT NOT NULL, verified_by TEXT NOT NULL, configuration_hash TEXT NOT NULL, "
+      "seconds REAL NOT NULL) WITHOUT ROWID");
+}
+
+// Checks whose file it is.
+void check_schema(const fs::path& file, SQLite::Database& database) {
+  const std::string name = printable(file.string());
+  if (database.execAndGet("PRAGMA application_id").getInt() != kApplicationId) {
+    throw InputError(fmt::format("{}: a database, but none of phongpipe's", name));
+  }
+  const int version = database.execAndGet("PRAGMA user_version").getInt();
+  if (version > kSchemaVersion) {
+    throw InputError(fmt::format("{}: written by a later phongpipe (schema {}, this one knows {})",
+                                 name, version, kSchemaVersion));
+  }
+}
+
+// Numbers are stored as numbers, so that they sort and compare as such.
+void bind_text_or_number(SQLite::Statement& statement, int index, const std::string& text) {
+  if (const auto whole = parse_integer(text)) {
+    statement.bind(index, static_cast<std::int64_t>(*whole));
+  } else if (const auto number = parse_number(text)) {
+    statement.bind(index, *number);
+  } else {
+    statement.bind(index, text);
+  }
+}
+
+void bind_metric(SQLite::Statement& statement, int index, const MetricValue& value) {
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) {
+    statement.bind(index, *whole);
+  } else if (const auto* number = std::get_if<double>(&value);
+             number != nullptr && std::isfinite(*number)) {
+    statement.bind(index, *number);
+  } else {
+    statement.bind(index);  // NULL
+  }
+}
+
+Cell cell_of(const SQLite::Column& column) {
+  if (column.isInteger()) return MetricValue(static_cast<std::int64_t>(column.getInt64()));
+  if (column.isFloat()) return MetricValue(column.getDouble());
+  if (column.isNull()) return MetricValue();
+  return column.getString();
+}
+
+}  // namespace
+
+Store::Store(const fs::path& file, Access access, const std::string& kind)
+    : file_(file), kind_(kind) {
+  std::error_code none;
+  if (access == Access::read && !fs::exists(file, none)) {
+    throw InputError(fmt::format("{}: no such file", printable(file.string())));
+  }
+  if (fs::exists(file, none) && !fs::is_regular_file(file, none)) {
+    throw InputError(fmt::format("{}: not a file", printable(file.string())));
+  }
+  guarded(file_, [&] {
+    const int flags = access == Access::read ? SQLite::OPEN_READONLY
+                                             : SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE;
+    database_ = std::make_unique<SQLite::Database>(file_.string(), flags);
+    if (access == Access::read) {
+      check_schema(file_, *database_);
+    } else {
+      // The lock is taken by the transaction below and kept. A rollback journal, for write-ahead
+      // logs do not work on the file systems that clusters share.
+      database_->exec("PRAGMA locking_mode = EXCLUSIVE");
+      database_->exec("PRAGMA journal_mode = TRUNCATE");
+      database_->exec("BEGIN EXCLUSIVE");
+      if (database_->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) {
+        create_schema(*database_, kind);
+      } else {
+        check_schema(file_, *database_);
+      }
+      const std::set<std::string> present = columns_of_runs(*database_);
+      for (const Metric& metric : metrics()) add_column(*database_, present, metric.name);
+      database_->exec("COMMIT");
+    }
+    kind_ = database_->execAndGet("SELECT kind FROM about").getString();
+  });
+  if (!kind.empty() && kind != kind_) {
+    throw InputError(fmt::format("{}: the results of a {}, not of a {}", printable(file.string()),
+                                 kind_, kind));
+  }
+}
+
+Store::~Store() = default;
+
+std::vector<std::string> Store::keys() const {
+  return guarded(file_, [&] { return first_column(*database_, "SELECT name FROM keys ORDER BY rowid"); });
+}
+
+void Store::add_keys(const std::vector<std::string>& keys) {
+  guarded(file_, [&] {
+    SQLite::Transaction transaction(*database_);
+    const std::set<std::string> present = columns_of_runs(*database_);
+    for (const std::string& key : keys) {
+      const auto& fixed = kFixedColumns;
+      if (std::find(std::begin(fixed), std::end(fixed), key) == std::end(fixed)) {
+        add_column(*database_, present, key);
+      }
+      SQLite::Statement insert(*database_, "INSERT OR IGNORE INTO keys VALUES (?)");
+      insert.bind(1, key);
+      insert.exec();
+    }
+    transaction.commit();
+  });
+}
+
+std::vector<std::string> Store::shards() const {
+  return guarded(file_, [&] { return first_column(*database_, "SELECT name FROM shards ORDER BY name"); });
+}
+
+void Store::add_shard(const std::string& shard) {
+  guarded(file_, [&] {
+    SQLite::Statement insert(*database_, "INSERT OR IGNORE INTO shards VALUES (?)");
+    insert.bind(1, shard);
+    insert.exec();
+  });
+}
+
+std::unordered_map<std::string, KnownRun> Store::known() const {
+  return guarded(file_, [&] {
+    std::unordered_map<std::string, KnownRun> result;
+    SQLite::Statement statement(*database_, "SELECT identity, outcome, verified_by FROM runs");
+    while (statement.executeStep()) {
+      result.emplace(statement.getColumn(0).getString(),
+                     KnownRun{outcome_from(statement.getColumn(1).getString()),
+                              verified_by_from(statement.getColumn(2).getString())});
+    }
+    return result;
+  });
+}
+
+void Store::put(const std::vector<StoredRun>& runs) {
+  if (runs.empty()) return;
+  guarded(file_, [&] {
+    SQLite::Transaction transaction(*database_);
+    for (const StoredRun& run : runs) {
+      std::vector<std::string> names;
+      for (const std::string_view column : kFixedColumns) names.push_back(quoted_name(column));
+      std::vector<const std::pair<std::string, std::string>*> values;
+      for (const auto& value : run.values) {
+        if (value.first == "scene" || value.first == "hardware") continue;
+        values.push_back(&value);
+        names.push_back(quoted_name(value.first));
+      }
+      if (!run.result.metrics.empty()) {
+        for (const Metric& metric : metrics()) names.push_back(quoted_name(metric.name));
+      }
+      std::string marks = "?";
+      for (std::size_t i = 1; i < names.size(); ++i) marks += ",?";
+      SQLite::Statement insert(*database_, fmt::format("INSERT OR REPLACE INTO runs ({}) VALUES ({})",
+                                                       fmt::join(names, ","), marks));
+      int index = 0;
+      for (const std::string& text :
+           {run.identity, run.text, run.command, run.scene, run.hardware,
+            std::string(name(run.result.outcome)), run.result.message, run.result.bucket,
+            std::string(name(run.result.verified_by)), run.result.configuration_hash}) {
+        insert.bind(++index, text);
+      }
+      insert.bind(++index, run.seconds);
+      for (const auto* value : values) bind_text_or_number(insert, ++index, value->second);
+      for (const MetricValue& value : run.result.metrics) bind_metric(insert, ++index, value);
+      insert.exec();
+    }
+    transaction.commit();
+  });
+}
+
+void Store::merge(const Store& other) {
+  const std::string here = printable(file_.string()), there = printable(other.file_.string());
+  if (other.kind_ != kind_) {
+    throw InputError(fmt::format("{} is a {}, {} a {}: not one campaign", here, kind_, there,
+                                 other.kind_));
+  }
+  const std::vector<std::string> their_keys = other.keys();
+  const std::vector<std::string> our_keys = keys();
+  if (!our_keys.empty() && our_keys != their_keys) {
+    throw InputError(fmt::format("{} varies {}, {} varies {}: not one campaign", there,
+                                 fmt::join(their_keys, ", "), here, fmt::join(our_keys, ", ")));
+  }
+  const auto division = [](const std::string& shard) { return shard.substr(shard.find('/')); };
+  const std::vector<std::string> our_shards = shards(), their_shards = other.shards();
+  for (const std::string& theirs : their_shards) {
+    for (const std::string& ours : our_shards) {
+      if (division(ours) == division(theirs)) continue;
+      throw InputError(fmt::format("{} is shard {}, others are {}: these do not fit together",
+                                   there, theirs, fmt::join(our_shards, ", ")));
+    }
+  }
+  add_keys(their_keys);
+  for (const std::string& shard : their_shards) add_shard(shard);
+  guarded(file_, [&] {
+    SQLite::Statement attach(*database_, "ATTACH ? AS other");
+    attach.bind(1, other.file_.string());
+    attach.exec();
+    {
+      SQLite::Transaction transaction(*database_);
+      const std::set<std::string> present = columns_of_runs(*database_);
+      std::vector<std::string> names;
+      for (const std::string& column :
+           first_column(*database_, "SELECT name FROM pragma_table_info('runs', 'other')")) {
+        add_column(*database_, present, column);
+        names.push_back(quoted_name(column));
+      }
+      const std::string columns = fmt::format("{}", fmt::join(names, ","));
+      std::string rank;
+      for (int i = 0; i < 3; ++i) {
+        rank += fmt::format(" WHEN '{}' THEN {}", name(static_cast<VerifiedBy>(i)), i);
+      }
+      database_->exec(fmt::format(
+          "INSERT OR REPLACE INTO runs ({0}) SELECT {0} FROM other.runs AS theirs WHERE NOT EXISTS "
+          "(SELECT 1 FROM main.runs AS ours WHERE ours.identity = theirs.identity AND "
+          "CASE ours.verified_by{1} END >= CASE theirs.verified_by{1} END)",
+          columns, rank));
+      transaction.commit();
+    }
+    database_->exec("DETACH other");
+  });
+}
+
+ResultTable Store::table() const {
+  return guarded(file_, [&] {
+    ResultTable table;
+    std::vector<std::string> varied = keys();
+    varied.erase(std::remove(varied.begin(), varied.end(), "scene"), varied.end());
+    table.columns.emplace_back("scene");
+    table.columns.insert(table.columns.end(), varied.begin(), varied.end());
+    for (const char* column : {"outcome", "verified_by", "message", "bucket", "configuration_hash"}) {
+      table.columns.emplace_back(column);
+    }
+    const std::set<std::string> present = columns_of_runs(*database_);
+    for (const Metric& metric : metrics()) {
+      // A file of an earlier version may lack a metric.
+      if (present.count(std::string(metric.name)) != 0) table.columns.emplace_back(metric.name);
+    }
+    for (const char* column : {"seconds", "identity", "command"}) table.columns.emplace_back(column);
+    std::vector<std::string> names, order = {"scene"};
+    for (const std::string& column : table.columns) names.push_back(quoted_name(column));
+    for (const std::string& key : varied) order.push_back(quoted_name(key));
+    SQLite::Statement statement(
+        *database_, fmt::format("SELECT {} FROM runs ORDER BY {}, identity", fmt::join(names, ","),
+                                fmt::join(order, ",")));
+    while (statement.executeStep()) {
+      std::vector<Cell>& row = table.rows.emplace_back();
+      row.reserve(table.columns.size());
+      for (int i = 0; i < statement.getColumnCount(); ++i) row.push_back(cell_of(statement.getColumn(i)));
+    }
+    return table;
+  });
+}
+
+}  // namespace phongpipe

@@ -1,0 +1,222 @@
+#include "testbench/cosim/run.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "model/files/text_file.h"
+#include "model/scene/input_error.h"
+#include "testbench/system/fnv_hash.h"
+
+namespace phongpipe {
+namespace {
+
+using Options = VerificationOptions;
+
+constexpr std::array<std::string_view, 2> kDetails = {"span", "cycle"};
+constexpr std::array<std::string_view, 3> kEffects = {"scene", "all", "both"};
+
+template <typename Enum, std::size_t kSize>
+Enum choice(std::string_view option, const std::string& text,
+            const std::array<std::string_view, kSize>& words) {
+  const auto found = std::find(words.begin(), words.end(), text);
+  if (found == words.end()) {
+    throw InputError(fmt::format("{} = {}: one of {}", option, text, fmt::join(words, ", ")));
+  }
+  return static_cast<Enum>(found - words.begin());
+}
+
+template <std::size_t kSize, typename Enum>
+std::string word(const std::array<std::string_view, kSize>& words, Enum value) {
+  return std::string(words[static_cast<std::size_t>(value)]);
+}
+
+long whole_number(std::string_view option, const std::string& text, long low, long high) {
+  const auto number = parse_integer(text);
+  if (!number || *number < low || *number > high) {
+    throw InputError(fmt::format("{} = {}: a whole number from {} to {}", option, text, low, high));
+  }
+  return *number;
+}
+
+bool is_plain(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+         std::string_view("_-+=.,:/@%").find(c) != std::string_view::npos;
+}
+
+// A word that a shell takes as it is.
+std::string quoted(const std::string& text) {
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+// What of a failed verification is told first.
+struct Failure {
+  std::string bucket, message;
+};
+
+Failure failure_of(const char* name, const ImplementationResult& found) {
+  std::string message = fmt::format("{} differs from the model in {} pixels of the stream and {} of "
+                                    "the frame",
+                                    name, found.stream_mismatches, found.frame_mismatches);
+  if (!found.counts.failure.empty()) message += "; " + found.counts.failure;
+  if (found.first_divergence) {
+    const Divergence& d = *found.first_divergence;
+    message += fmt::format("; first at triangle {}, x {}, y {}, cycle {}", d.triangle, d.model.x,
+                           d.model.y, d.cycle);
+  }
+  const char* what = "frame";
+  if (found.first_divergence) {
+    const Divergence& d = *found.first_divergence;
+    const bool same_place = d.model.x == d.found.x && d.model.y == d.found.y;
+    what = d.missing ? "pixel missing" : same_place ? "color" : "position";
+  } else if (!found.counts.failure.empty()) {
+    what = "stuck";
+  }
+  return {fmt::format("{}: {}", name, what), message};
+}
+
+Failure failure_of(const VerificationResult& r) {
+  if (!r.systemc.agrees()) return failure_of("SystemC", r.systemc);
+  if (r.rtl && !r.rtl->agrees()) return failure_of("RTL", *r.rtl);
+  if (!r.same_cycles()) {
+    return {"cycles", fmt::format("the frame takes {} cycles more with the RTL than in SystemC",
+                                  r.cycle_difference())};
+  }
+  if (r.full_hardware && !r.full_hardware->systemc.agrees()) {
+    return {"effects", fmt::format("{} pixels differ with hardware that has every effect",
+                                   r.full_hardware->systemc.frame_mismatches)};
+  }
+  if (r.set_up.overflows > 0) {
+    return {"overflow", fmt::format("{} triangles have values that do not fit their registers",
+                                    r.set_up.overflows)};
+  }
+  return {"budget", fmt::format("{:.2f} ns a pixel, over the budget of {:.10g}",
+                                r.frame_ns_per_pixel(), r.options.budget_ns)};
+}
+
+}  // namespace
+
+const std::vector<RunOption>& run_options() {
+  static const std::vector<RunOption> all = {
+      {"detail", [](const Options& o) { return word(kDetails, o.detail); },
+       [](Options& o, const std::string& text) {
+         o.detail = choice<Detail>("detail", text, kDetails);
+       }},
+      {"stall", [](const Options& o) { return std::to_string(o.stall_percent); },
+       [](Options& o, const std::string& text) {
+         o.stall_percent = static_cast<int>(whole_number("stall", text, 0, 100));
+       }},
+      {"seed", [](const Options& o) { return std::to_string(o.seed); },
+       [](Options& o, const std::string& text) {
+         o.seed = static_cast<std::uint32_t>(whole_number("seed", text, 0, 0xffffffff));
+       }},
+      {"effects", [](const Options& o) { return word(kEffects, o.effects); },
+       [](Options& o, const std::string& text) {
+         o.effects = choice<EffectsToVerify>("effects", text, kEffects);
+       }},
+      {"budget", [](const Options& o) { return fmt::format("{}", o.budget_ns); },
+       [](Options& o, const std::string& text) {
+         const auto number = parse_number(text);
+         if (!number || *number <= 0) {
+           throw InputError(fmt::format("budget = {}: a number of ns above 0", text));
+         }
+         o.budget_ns = *number;
+       }},
+  };
+  return all;
+}
+
+void set_key(RunRequest& request, const std::string& key, const std::string& value) {
+  if (key == "scene") {
+    request.scene = value;
+  } else if (key == "hardware") {
+    request.hardware = value;
+  } else {
+    for (const RunOption& option : run_options()) {
+      if (key == option.name) return option.put(request.options, value);
+    }
+    request.settings.push_back(key + "=" + value);
+  }
+}
+
+std::string command_of(const RunRequest& request) {
+  const RunRequest none;
+  std::string text = "phongpipe verify " + quoted(request.scene);
+  if (request.hardware != none.hardware) text += " --hardware " + quoted(request.hardware);
+  for (const std::string& setting : request.settings) text += " --set " + quoted(setting);
+  for (const RunOption& option : run_options()) {
+    const std::string value = option.get(request.options);
+    if (value != option.get(none.options)) text += fmt::format(" --{} {}", option.name, value);
+  }
+  if (!request.options.rtl_sources.empty()) {
+    text += " --rtl " + quoted(request.options.rtl_sources.string());
+  }
+  return text;
+}
+
+std::string canonical_text(std::uint64_t scene_hash, const Hardware& hardware,
+                           const VerificationOptions& options, const RunLimits& limits) {
+  std::string text = fmt::format("arithmetic={}\nscene={:016x}\n", kArithmeticVersion, scene_hash);
+  for (const Setting<Hardware>& setting : hardware_settings()) {
+    text += fmt::format("{}={}\n", setting.name(), setting.value(hardware));
+  }
+  const auto& [name, source, points, fixed_clock_ns, depth_cue_clock_ns] = hardware.technology;
+  text += fmt::format("technology={} {} {}", name, fixed_clock_ns, depth_cue_clock_ns);
+  for (const Technology::Point& point : points) {
+    text += fmt::format(" {}/{}:{}", point.width, point.address_bits, point.clock_ns);
+  }
+  text += "\n";
+  for (const RunOption& option : run_options()) {
+    text += fmt::format("{}={}\n", option.name, option.get(options));
+  }
+  return text + fmt::format("seconds={}\nmemory_mib={}\n", limits.seconds, limits.memory_mib);
+}
+
+std::string identity_of(const std::string& canonical_text) {
+  FnvHash hash;
+  hash.add(std::string_view(canonical_text));
+  return fmt::format("{:016x}", hash.value());
+}
+
+std::string_view name(Outcome outcome) {
+  static constexpr std::string_view kNames[] = {"passed", "failed", "refused", "crashed",
+                                                "timed_out"};
+  return kNames[static_cast<std::size_t>(outcome)];
+}
+
+std::string_view name(VerifiedBy verified_by) {
+  static constexpr std::string_view kNames[] = {"nothing", "model", "native"};
+  return kNames[static_cast<std::size_t>(verified_by)];
+}
+
+RunResult summary_of(const VerificationResult& result) {
+  RunResult summary;
+  if (result.passed()) {
+    summary.outcome = Outcome::passed;
+  } else {
+    summary.outcome = Outcome::failed;
+    Failure failure = failure_of(result);
+    summary.message = std::move(failure.message);
+    summary.bucket = std::move(failure.bucket);
+  }
+  summary.verified_by = result.rtl ? VerifiedBy::native : VerifiedBy::model;
+  summary.configuration_hash = configuration_hash(result.hardware);
+  for (const Metric& metric : metrics()) summary.metrics.push_back(metric.value(result));
+  return summary;
+}
+
+RunResult refused(const std::string& reason) {
+  RunResult result;
+  result.outcome = Outcome::refused;
+  result.message = reason;
+  result.bucket = "refused";
+  return result;
+}
+
+}  // namespace phongpipe

@@ -1,0 +1,184 @@
+#include "testbench/reports/campaign_report.h"
+
+#include <fmt/color.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "testbench/campaign/pareto.h"
+#include "testbench/cosim/metrics_json.h"
+#include "testbench/system/terminal.h"
+
+namespace phongpipe {
+namespace {
+
+std::string count_text(std::uint64_t count) {
+  return metric_text(static_cast<std::int64_t>(count));
+}
+
+// ", 3 failed" for each outcome that occurred.
+std::string outcomes(const CampaignProgress& p) {
+  std::string text;
+  for (const auto& [count, what] : {std::pair<std::uint64_t, const char*>{p.failed, "failed"},
+                                    {p.crashed, "crashed"},
+                                    {p.timed_out, "timed out"},
+                                    {p.refused, "refused"}}) {
+    if (count > 0) text += fmt::format(", {} {}", count_text(count), what);
+  }
+  return text;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 100) return fmt::format("{:.{}f} s", seconds, seconds < 10 ? 1 : 0);
+  if (seconds < 6000) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+// Exactly as it was computed: the shortest text that reads back as the same number.
+std::string exact_text(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  const MetricValue& value = std::get<MetricValue>(cell);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
+  return {};
+}
+
+std::optional<double> number_in(const Cell& cell) {
+  const auto* value = std::get_if<MetricValue>(&cell);
+  if (value == nullptr) return std::nullopt;
+  if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
+  if (const auto* number = std::get_if<double>(value)) return *number;
+  return std::nullopt;
+}
+
+// The points of the front, a line each.
+void add_front(std::string& text, const ResultTable& table, const Store& store) {
+  const auto column = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) -
+                                    table.columns.begin());
+  };
+  const std::size_t outcome = column("outcome"), error = column("max_lsb"),
+                    time = column("frame_ns_per_pixel");
+  std::vector<std::optional<ParetoPoint>> points;
+  for (const auto& row : table.rows) {
+    points.emplace_back();
+    const auto a = number_in(row[time]), b = number_in(row[error]);
+    if (exact_text(row[outcome]) == "passed" && a && b) points.back() = ParetoPoint{*a, *b};
+  }
+  const std::vector<std::size_t> front = pareto_front(points);
+  if (front.empty()) return;
+  text += fmt::format("  front    {} of {} points: the least error for their time\n", front.size(),
+                      count_text(table.rows.size()));
+  constexpr std::size_t kMostLines = 8;
+  for (std::size_t i = 0; i < std::min(front.size(), kMostLines); ++i) {
+    const auto& row = table.rows[front[i]];
+    std::string where;
+    for (const std::string& key : store.keys()) {
+      where += fmt::format("  {}={}", key, printable(exact_text(row[column(key)])));
+    }
+    text += fmt::format("           {:.2f} ns a pixel, at most {:.2f} LSB{}\n", points[front[i]]->a,
+                        points[front[i]]->b, where);
+  }
+  if (front.size() > kMostLines) text += "           …\n";
+}
+
+// Failures by bucket; of each the first, with the command that shows it again.
+void add_failures(std::string& text, const CampaignResult& result) {
+  std::map<std::string, std::vector<const StoredRun*>> buckets;
+  for (const StoredRun& run : result.not_passed) buckets[run.result.bucket].push_back(&run);
+  for (const auto& [bucket, runs] : buckets) {
+    const StoredRun& smallest = **std::min_element(
+        runs.begin(), runs.end(), [](const StoredRun* a, const StoredRun* b) {
+          return a->seconds < b->seconds;
+        });
+    text += fmt::format("  {:<8} {} × {}: {}\n", name(smallest.result.outcome), runs.size(), bucket,
+                        printable(smallest.result.message));
+    text += fmt::format("    again  {}\n", printable(smallest.command));
+  }
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+std::string progress_line(const CampaignProgress& p) {
+  const std::uint64_t done = p.done(), left = p.total - p.known - done;
+  std::string text = fmt::format("{} of {}{}", count_text(p.known + done), count_text(p.total),
+                                 outcomes(p));
+  if (done > 0 && p.seconds > 0) {
+    const double rate = static_cast<double>(done) / p.seconds;
+    text += fmt::format(", {:.1f} a second, {} left", rate,
+                        duration(static_cast<double>(left) / rate));
+  }
+  if (p.best) {
+    text += fmt::format("; best so far {:.2f} LSB at {:.2f} ns", p.best->max_lsb,
+                        p.best->frame_ns_per_pixel);
+  }
+  return text;
+}
+
+std::string campaign_text(const CampaignResult& result, const Store& store, const std::string& file,
+                          const std::string& again, bool color) {
+  const CampaignProgress& p = result.progress;
+  const std::uint64_t failures = p.failed + p.crashed + p.timed_out;
+  const bool good = failures == 0 && !result.interrupted;
+  std::string verdict = result.interrupted ? "STOPPED" : failures > 0 ? "FAILED" : "PASSED";
+  if (color) {
+    verdict = fmt::format(fmt::emphasis::bold | fmt::fg(good ? fmt::terminal_color::green
+                                                             : fmt::terminal_color::red),
+                          "{}", verdict);
+  }
+  std::string text = fmt::format("{} {}  {} of {} runs passed{}", verdict, store.kind(),
+                                 count_text(p.passed), count_text(p.total - p.known), outcomes(p));
+  if (p.known > 0) text += fmt::format("; {} were known", count_text(p.known));
+  text += fmt::format("; {}\n", duration(p.seconds));
+  add_failures(text, result);
+  if (store.kind() == "sweep") add_front(text, store.table(), store);
+  if (result.interrupted) text += fmt::format("  go on    {}\n", again);
+  if (!file.empty()) {
+    text += fmt::format("  more     phongpipe export {0} --csv -, phongpipe report {0} -o report.html\n",
+                        printable(file));
+  }
+  return text;
+}
+
+std::string table_csv(const ResultTable& table) {
+  std::string text;
+  const auto add_row = [&text](const auto& row, auto cell_text) {
+    bool first = true;
+    for (const auto& cell : row) {
+      if (!first) text += ',';
+      first = false;
+      text += csv_cell(cell_text(cell));
+    }
+    text += '\n';
+  };
+  add_row(table.columns, [](const std::string& name) { return name; });
+  for (const auto& row : table.rows) add_row(row, exact_text);
+  return text;
+}
+
+std::string table_json(const ResultTable& table) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const auto& row : table.rows) {
+    nlohmann::ordered_json json;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (const auto* text = std::get_if<std::string>(&row[i])) {
+        json[table.columns[i]] = printable(*text);
+      } else {
+        json[table.columns[i]] = std::get<MetricValue>(row[i]);
+      }
+    }
+    rows.push_back(std::move(json));
+  }
+  return rows.dump(2) + "\n";
+}
+
+}  // namespace phongpipe
