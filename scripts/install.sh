@@ -5,7 +5,7 @@ packages=(
   g++ cmake ninja-build ccache pkg-config git
   verilator yosys iverilog
   libsystemc-dev libcli11-dev libtomlplusplus-dev libassimp-dev libeigen3-dev libfmt-dev
-  nlohmann-json3-dev libstb-dev zlib1g-dev libsqlitecpp-dev libmuparser-dev
+  nlohmann-json3-dev libstb-dev zlib1g-dev libsqlitecpp-dev libmuparser-dev libpugixml-dev
   libgtest-dev librapidcheck-dev libbenchmark-dev
 )
 if [ "${1:-}" = ci ]; then packages+=(clang-format clang-tidy); fi

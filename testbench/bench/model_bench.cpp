@@ -41,7 +41,8 @@ void phong_in_double(benchmark::State& state) {
     const auto [x, y] = centroid_pixel(triangle);
     triangles.push_back(method.create({frame.prepared.scene(), material, triangle, power, x, y}));
   }
-  const double ambient = 255 * material.ambient[0] * frame.prepared.scene().shading.ambient_light[0];
+  const double ambient =
+      255 * material.ambient[0] * frame.prepared.scene().shading.ambient_light[0];
   const double diffuse = 255 * material.diffuse[0], specular = 255 * material.specular[0];
   std::vector<Reflection<double>> reflections(4096);
   std::vector<double> colors(4096);

@@ -6,6 +6,7 @@
 
 #include "model/scene/input_error.h"
 #include "testbench/cosim/metrics_json.h"
+#include "testbench/rtl/rtl_library.h"
 #include "testbench/system/record_json.h"
 #include "testbench/system/tool_error.h"
 
@@ -42,6 +43,23 @@ RunResult result_of(const ResolvedRun& run, const std::shared_ptr<const Prepared
   }
 }
 
+// Builds the RTL of all runs at once. A failure is left to the runs, which tell it.
+void build_rtl_of(const std::vector<ResolvedRun>& runs, const PreparedScene& scene) {
+  std::vector<DatapathConfiguration> configurations;
+  for (const ResolvedRun& run : runs) {
+    if (run.options.rtl == RtlToVerify::off) continue;
+    const Effects effects =
+        run.options.effects == EffectsToVerify::all ? Effects::all : Effects::derived;
+    configurations.push_back({run.hardware.formats, derive_blocks(run.hardware.formats, scene.scene,
+                                                                  scene.geometry, effects)});
+  }
+  if (configurations.empty()) return;
+  try {
+    build_missing_rtl(configurations, {});
+  } catch (const std::exception&) {
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Worker> start_batch(std::vector<ResolvedRun> runs,
@@ -50,6 +68,7 @@ std::unique_ptr<Worker> start_batch(std::vector<ResolvedRun> runs,
   return std::make_unique<Worker>(
       [runs = std::move(runs), scene = std::move(scene), memory_mib, stop](const auto& send) {
         limit_memory(memory_mib);
+        build_rtl_of(runs, *scene);
         for (const ResolvedRun& run : runs) {
           if (*stop) return;
           send(to_bytes(BatchMessage{false, run.index, {}}));

@@ -16,6 +16,7 @@
 #include "testbench/campaign/batch.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/cosim/scene_hash.h"
+#include "testbench/rtl/rtl_builder.h"
 #include "testbench/system/tool_error.h"
 
 namespace phongpipe {
@@ -53,6 +54,7 @@ class Loader {
   struct LoadedScene {
     Scene scene;
     std::uint64_t hash = 0;
+    std::size_t order = 0;                        // in which scenes were loaded
     std::weak_ptr<const PreparedScene> prepared;  // as long as someone uses it
   };
 
@@ -67,6 +69,7 @@ class Loader {
     LoadedScene loaded;
     loaded.scene = load_named_scene(request.scene, request.settings);
     loaded.hash = scene_hash(loaded.scene);
+    loaded.order = scenes_.size();
     return scenes_.emplace(key, std::move(loaded)).first->second;
   }
 
@@ -87,6 +90,7 @@ class Loader {
 struct PendingRun {
   ResolvedRun resolved;
   Loader::LoadedScene* scene = nullptr;
+  std::string rtl;  // parameters of the RTL that the user chose
 };
 
 class Campaign {
@@ -143,6 +147,7 @@ class Campaign {
         run.scene = &loader_.scene(request);
         run.resolved = {i, loader_.hardware(request), request.options};
         run.resolved.options.one_core = true;
+        run.rtl = rtl_parameters_text({run.resolved.hardware.formats, {}});
         stored.text = canonical_text(run.scene->hash, run.resolved.hardware, request.options,
                                      options_.limits);
       } catch (const InputError& error) {
@@ -173,15 +178,12 @@ class Campaign {
       throw InputError(refusals.front().result.message);
     }
     store_.put(refusals);
-    // Runs that share a scene stand together, in the order of the plan.
-    std::stable_sort(pending.begin(), pending.end(), [this](const auto& a, const auto& b) {
-      return order_of(a.scene) < order_of(b.scene);
+    // Runs that share a scene stand together, and of these the runs that share the RTL, so that one
+    // batch builds it.
+    std::stable_sort(pending.begin(), pending.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.scene->order, a.rtl) < std::tie(b.scene->order, b.rtl);
     });
     for (PendingRun& run : pending) queue_.push_back(std::move(run));
-  }
-
-  std::size_t order_of(const Loader::LoadedScene* scene) {
-    return order_.emplace(scene, order_.size()).first->second;
   }
 
   // A shard holds every run of some identities, whatever else the plan contains.
@@ -193,8 +195,8 @@ class Campaign {
 
   bool is_enough(const KnownRun& known, const VerificationOptions& wanted) const {
     if (known.outcome == Outcome::passed) {
-      return known.verified_by >= (wanted.rtl == RtlToVerify::off ? VerifiedBy::model
-                                                                  : VerifiedBy::native);
+      return known.verified_by >=
+             (wanted.rtl == RtlToVerify::off ? VerifiedBy::model : VerifiedBy::native);
     }
     return known.outcome == Outcome::refused || !options_.retry_failed;
   }
@@ -218,13 +220,15 @@ class Campaign {
       try {
         prepared = std::make_shared<const PreparedScene>(scene.scene);
       } catch (const InputError& error) {
-        for (const PendingRun& run : active.runs) record(run.resolved.index, refused(error.what()), 0);
+        for (const PendingRun& run : active.runs)
+          record(run.resolved.index, refused(error.what()), 0);
         return;
       }
       scene.prepared = prepared;
     }
     last_scene_ = prepared;
-    active.worker = start_batch(std::move(batch), prepared, options_.limits.memory_mib, stop_.get());
+    active.worker =
+        start_batch(std::move(batch), prepared, options_.limits.memory_mib, stop_.get());
     active.since = Clock::now();
     workers_.push_back(std::move(active));
   }
@@ -298,8 +302,12 @@ class Campaign {
     StoredRun& stored = stored_[index];
     stored.result = result;
     stored.seconds = seconds;
+    Outcome& outcome = stored.result.outcome;
+    if (options_.overflow_is_refusal && outcome == Outcome::failed && result.bucket == kOverflow) {
+      outcome = Outcome::refused;
+    }
     CampaignProgress& progress = result_.progress;
-    switch (result.outcome) {
+    switch (outcome) {
       case Outcome::passed:
         ++progress.passed;
         compare_with_best(result);
@@ -317,7 +325,7 @@ class Campaign {
         ++progress.timed_out;
         break;
     }
-    if (result.outcome != Outcome::passed && result.outcome != Outcome::refused) {
+    if (outcome != Outcome::passed && outcome != Outcome::refused) {
       result_.not_passed.push_back(stored);
       if (options_.fail_fast) stop();
     }
@@ -358,12 +366,11 @@ class Campaign {
   const std::function<bool()>& should_stop_;
   std::size_t jobs_ = 1;
   Loader loader_;
-  std::map<const Loader::LoadedScene*, std::size_t> order_;
-  std::vector<StoredRun> stored_;     // by index of the run; emptied once it is recorded
+  std::vector<StoredRun> stored_;  // by index of the run; emptied once it is recorded
   std::deque<PendingRun> queue_;
-  std::size_t one_by_one_ = 0;        // runs at the front of the queue that are batches of one
+  std::size_t one_by_one_ = 0;  // runs at the front of the queue that are batches of one
   std::vector<ActiveWorker> workers_;
-  std::vector<StoredRun> finished_;   // not stored yet
+  std::vector<StoredRun> finished_;                  // not stored yet
   std::shared_ptr<const PreparedScene> last_scene_;  // keeps it for the next batch
   SharedFlag stop_;
   bool stopping_ = false;
@@ -372,6 +379,20 @@ class Campaign {
 };
 
 }  // namespace
+
+CampaignProgress CampaignProgress::operator+(const CampaignProgress& later) const {
+  CampaignProgress sum = later;
+  sum.total += total;
+  sum.known += known;
+  sum.passed += passed;
+  sum.failed += failed;
+  sum.refused += refused;
+  sum.crashed += crashed;
+  sum.timed_out += timed_out;
+  sum.seconds += seconds;
+  if (best && (!later.best || best->max_lsb < later.best->max_lsb)) sum.best = best;
+  return sum;
+}
 
 CampaignResult run_campaign(const std::vector<CampaignRun>& runs, const CampaignOptions& options,
                             Store& store, const ShowCampaign& show,

@@ -21,7 +21,10 @@ struct CampaignOptions {
   int shard = 1, shards = 1;
   RunLimits limits;
   bool retry_failed = false;  // runs that failed, crashed or took too long are done again
-  bool fail_fast = false;     // no new runs after the first that failed or crashed
+  // Runs whose only fault is that values do not fit their registers count as refused: hardware
+  // drawn at random often cannot represent a scene drawn at random.
+  bool overflow_is_refusal = false;
+  bool fail_fast = false;  // no new runs after the first that failed or crashed
 };
 
 // The run with the least error of those that passed.
@@ -34,15 +37,17 @@ struct CampaignProgress {
   std::uint64_t total = 0;  // runs of the shard
   std::uint64_t known = 0;  // of them that were stored before
   std::uint64_t passed = 0, failed = 0, refused = 0, crashed = 0, timed_out = 0;  // done now
-  double seconds = 0;  // since the first run was begun
+  double seconds = 0;           // since the first run was begun
   std::optional<BestRun> best;  // of those done now
 
+  // Of two parts of a campaign, one done after the other.
+  CampaignProgress operator+(const CampaignProgress& later) const;
   std::uint64_t done() const { return passed + failed + refused + crashed + timed_out; }
 };
 
 struct CampaignResult {
   CampaignProgress progress;
-  bool interrupted = false;  // by Ctrl-C, or by fail_fast
+  bool interrupted = false;           // by Ctrl-C, or by fail_fast
   std::vector<StoredRun> not_passed;  // failed, crashed or timed out now
 };
 

@@ -56,12 +56,12 @@ std::optional<std::vector<std::string>> range_values(const std::string& item) {
   if (step == 0) throw InputError(fmt::format("{}: a step of 0 leads nowhere", item));
   const double steps = std::floor((to - from) / step + 1e-9);
   if (steps < 0) {
-    throw InputError(fmt::format("{}: no value lies from {} to {} in steps of {}", item, from, to,
-                                 step));
+    throw InputError(
+        fmt::format("{}: no value lies from {} to {} in steps of {}", item, from, to, step));
   }
   if (steps >= static_cast<double>(kMostPoints)) {
-    throw InputError(fmt::format("{}: {:.0f} values, at most {} are possible", item, steps + 1,
-                                 kMostPoints));
+    throw InputError(
+        fmt::format("{}: {:.0f} values, at most {} are possible", item, steps + 1, kMostPoints));
   }
   std::vector<std::string> values;
   for (int i = 0; i <= static_cast<int>(steps); ++i) {
@@ -112,8 +112,7 @@ const Setting<Hardware>* setting_called(const std::string& key) {
 class Expression {
  public:
   Expression(const std::string& text, const Plan& plan) : text_(text) {
-    parser_.DefineNameChars(
-        "0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    parser_.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
     for (const Axis& axis : plan.axes) add_variable(axis.key);
     for (const Tie& tie : plan.ties) add_variable(tie.key);
     for (const Setting<Hardware>& setting : hardware_settings()) {
@@ -226,9 +225,8 @@ std::vector<PlanPoint> sampled_points(const Plan& plan, std::uint64_t size) {
   std::map<std::uint64_t, PlanPoint> chosen;  // in the order of the grid
   // Conditions may leave out all but a few points: give up after many draws.
   const std::uint64_t most_draws = 1000 + 200 * plan.sample;
-  for (std::uint64_t draw = 0; draw < most_draws && chosen.size() < plan.sample &&
-                               places.size() < size;
-       ++draw) {
+  for (std::uint64_t draw = 0;
+       draw < most_draws && chosen.size() < plan.sample && places.size() < size; ++draw) {
     const std::uint64_t place = random.below(size);
     if (!places.insert(place).second) continue;
     if (auto point = maker.point(place)) chosen.emplace(place, std::move(*point));
@@ -316,11 +314,12 @@ std::vector<PlanPoint> points_of(const Plan& plan) {
   if (plan.sample > 0 && plan.sample < size) {
     points = sampled_points(plan, size);
   } else if (size > kMostPoints) {
-    throw InputError(fmt::format("the space has {} points, more than the {} that are computed one "
-                                 "by one; give --sample N or fewer values",
-                                 metric_text(static_cast<std::int64_t>(
-                                     std::min<std::uint64_t>(size, std::int64_t{1} << 62))),
-                                 metric_text(static_cast<std::int64_t>(kMostPoints))));
+    throw InputError(fmt::format(
+        "the space has {} points, more than the {} that are computed one "
+        "by one; give --sample N or fewer values",
+        metric_text(
+            static_cast<std::int64_t>(std::min<std::uint64_t>(size, std::int64_t{1} << 62))),
+        metric_text(static_cast<std::int64_t>(kMostPoints))));
   } else {
     PointMaker maker(plan);
     for (std::uint64_t place = 0; place < size; ++place) {

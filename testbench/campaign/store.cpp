@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
@@ -24,8 +25,9 @@ constexpr int kSchemaVersion = 1;
 
 // Columns of the table `runs` before those of keys and metrics.
 constexpr std::string_view kFixedColumns[] = {
-    "identity", "text",    "command",     "scene",              "hardware", "outcome",
-    "message",  "bucket",  "verified_by", "configuration_hash", "seconds"};
+    "identity", "text",    "command", "scene",       "hardware",
+    "outcome",  "message", "bucket",  "verified_by", "configuration_hash",
+    "seconds"};
 
 std::string quoted_name(std::string_view name) {
   std::string result = "\"";
@@ -57,9 +59,10 @@ auto guarded(const fs::path& file, Work work) -> decltype(work()) {
     switch (error.getErrorCode()) {
       case SQLITE_BUSY:
       case SQLITE_LOCKED:
-        throw InputError(fmt::format("{}: in use by another process; wait for it, or give it a file "
-                                     "of its own",
-                                     name));
+        throw InputError(
+            fmt::format("{}: in use by another process; wait for it, or give it a file "
+                        "of its own",
+                        name));
       case SQLITE_NOTADB:
       case SQLITE_CORRUPT:
       case SQLITE_FORMAT:
@@ -156,6 +159,32 @@ Cell cell_of(const SQLite::Column& column) {
 
 }  // namespace
 
+std::size_t ResultTable::column(std::string_view name) const {
+  const auto found = std::find(columns.begin(), columns.end(), name);
+  if (found == columns.end()) throw std::out_of_range(fmt::format("no column {}", name));
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
+std::string ResultTable::text(std::size_t row, std::string_view name) const {
+  return exact_text(rows[row][column(name)]);
+}
+
+std::optional<double> ResultTable::number(std::size_t row, std::string_view name) const {
+  const auto* value = std::get_if<MetricValue>(&rows[row][column(name)]);
+  if (value == nullptr) return std::nullopt;
+  if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
+  if (const auto* number = std::get_if<double>(value)) return *number;
+  return std::nullopt;
+}
+
+std::string exact_text(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  const MetricValue& value = std::get<MetricValue>(cell);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
+  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
+  return {};
+}
+
 Store::Store(const fs::path& file, Access access, const std::string& kind)
     : file_(file), kind_(kind) {
   std::error_code none;
@@ -189,15 +218,16 @@ Store::Store(const fs::path& file, Access access, const std::string& kind)
     kind_ = database_->execAndGet("SELECT kind FROM about").getString();
   });
   if (!kind.empty() && kind != kind_) {
-    throw InputError(fmt::format("{}: the results of a {}, not of a {}", printable(file.string()),
-                                 kind_, kind));
+    throw InputError(
+        fmt::format("{}: the results of a {}, not of a {}", printable(file.string()), kind_, kind));
   }
 }
 
 Store::~Store() = default;
 
 std::vector<std::string> Store::keys() const {
-  return guarded(file_, [&] { return first_column(*database_, "SELECT name FROM keys ORDER BY rowid"); });
+  return guarded(file_,
+                 [&] { return first_column(*database_, "SELECT name FROM keys ORDER BY rowid"); });
 }
 
 void Store::add_keys(const std::vector<std::string>& keys) {
@@ -218,7 +248,8 @@ void Store::add_keys(const std::vector<std::string>& keys) {
 }
 
 std::vector<std::string> Store::shards() const {
-  return guarded(file_, [&] { return first_column(*database_, "SELECT name FROM shards ORDER BY name"); });
+  return guarded(file_,
+                 [&] { return first_column(*database_, "SELECT name FROM shards ORDER BY name"); });
 }
 
 void Store::add_shard(const std::string& shard) {
@@ -260,8 +291,9 @@ void Store::put(const std::vector<StoredRun>& runs) {
       }
       std::string marks = "?";
       for (std::size_t i = 1; i < names.size(); ++i) marks += ",?";
-      SQLite::Statement insert(*database_, fmt::format("INSERT OR REPLACE INTO runs ({}) VALUES ({})",
-                                                       fmt::join(names, ","), marks));
+      SQLite::Statement insert(*database_,
+                               fmt::format("INSERT OR REPLACE INTO runs ({}) VALUES ({})",
+                                           fmt::join(names, ","), marks));
       int index = 0;
       for (const std::string& text :
            {run.identity, run.text, run.command, run.scene, run.hardware,
@@ -281,8 +313,8 @@ void Store::put(const std::vector<StoredRun>& runs) {
 void Store::merge(const Store& other) {
   const std::string here = printable(file_.string()), there = printable(other.file_.string());
   if (other.kind_ != kind_) {
-    throw InputError(fmt::format("{} is a {}, {} a {}: not one campaign", here, kind_, there,
-                                 other.kind_));
+    throw InputError(
+        fmt::format("{} is a {}, {} a {}: not one campaign", here, kind_, there, other.kind_));
   }
   const std::vector<std::string> their_keys = other.keys();
   const std::vector<std::string> our_keys = keys();
@@ -337,7 +369,8 @@ ResultTable Store::table() const {
     varied.erase(std::remove(varied.begin(), varied.end(), "scene"), varied.end());
     table.columns.emplace_back("scene");
     table.columns.insert(table.columns.end(), varied.begin(), varied.end());
-    for (const char* column : {"outcome", "verified_by", "message", "bucket", "configuration_hash"}) {
+    for (const char* column :
+         {"outcome", "verified_by", "message", "bucket", "configuration_hash"}) {
       table.columns.emplace_back(column);
     }
     const std::set<std::string> present = columns_of_runs(*database_);
@@ -345,7 +378,8 @@ ResultTable Store::table() const {
       // A file of an earlier version may lack a metric.
       if (present.count(std::string(metric.name)) != 0) table.columns.emplace_back(metric.name);
     }
-    for (const char* column : {"seconds", "identity", "command"}) table.columns.emplace_back(column);
+    for (const char* column : {"seconds", "identity", "command"})
+      table.columns.emplace_back(column);
     std::vector<std::string> names, order = {"scene"};
     for (const std::string& column : table.columns) names.push_back(quoted_name(column));
     for (const std::string& key : varied) order.push_back(quoted_name(key));
@@ -355,7 +389,8 @@ ResultTable Store::table() const {
     while (statement.executeStep()) {
       std::vector<Cell>& row = table.rows.emplace_back();
       row.reserve(table.columns.size());
-      for (int i = 0; i < statement.getColumnCount(); ++i) row.push_back(cell_of(statement.getColumn(i)));
+      for (int i = 0; i < statement.getColumnCount(); ++i)
+        row.push_back(cell_of(statement.getColumn(i)));
     }
     return table;
   });

@@ -4,9 +4,12 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "testbench/cosim/run.h"
@@ -39,15 +42,23 @@ using Cell = std::variant<std::string, MetricValue>;
 struct ResultTable {
   std::vector<std::string> columns;
   std::vector<std::vector<Cell>> rows;
+
+  // The place of a column. Throws std::out_of_range if there is none of that name.
+  std::size_t column(std::string_view name) const;
+  // A cell as text: numbers exactly, no value as an empty text.
+  std::string text(std::size_t row, std::string_view column) const;
+  std::optional<double> number(std::size_t row, std::string_view column) const;
 };
+std::string exact_text(const Cell& cell);
 
 class Store {
  public:
   enum class Access { read, write };
+  static constexpr const char* kInMemory = ":memory:";  // a file that is not kept
 
   // Opens a file; with Access::write makes it if there is none. `kind`: of the campaign, "sweep" or
-  // "regress"; empty: any. Throws InputError if the file is in use, is none of ours, is from a later
-  // version or of another kind, or cannot be written.
+  // "regress"; empty: any. Throws InputError if the file is in use, is none of ours, is from a
+  // later version or of another kind, or cannot be written.
   Store(const std::filesystem::path& file, Access access, const std::string& kind = {});
   ~Store();
   Store(const Store&) = delete;

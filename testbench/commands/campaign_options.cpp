@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <optional>
+#include <vector>
 
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
+#include "testbench/cases/random_run.h"
 #include "testbench/commands/options.h"
 #include "testbench/reports/campaign_report.h"
 #include "testbench/system/output_file.h"
@@ -57,6 +59,19 @@ class CampaignDisplay {
   Progress live_;
 };
 
+// The values of all keys of a request.
+std::vector<std::pair<std::string, std::string>> values_of(const RunRequest& request) {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const std::string& setting : request.settings) {
+    const std::size_t equals = setting.find('=');
+    values.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  for (const RunOption& option : run_options()) {
+    values.emplace_back(option.name, option.get(request.options));
+  }
+  return values;
+}
+
 void parse_shard(const std::string& text, CampaignOptions& options) {
   if (text.empty()) return;
   const std::vector<std::string_view> parts = split(text, '/');
@@ -72,11 +87,56 @@ void parse_shard(const std::string& text, CampaignOptions& options) {
   throw InputError(fmt::format("--shard {}: write I/N, part I of N, as in 1/4", text));
 }
 
+// The store, the display and the handler of Ctrl-C while runs are done, in one go or in rounds.
+class Session {
+ public:
+  Session(CampaignCommand& command, const std::vector<std::string>& keys)
+      : command_(command), store_(command.database, Store::Access::write, command.kind) {
+    parse_shard(command.shard, command.options);
+    store_.add_keys(keys);
+    if (!command.shard.empty()) store_.add_shard(command.shard);
+  }
+
+  // `late`: whether the time for new runs is over.
+  void add(std::vector<CampaignRun> runs, const std::function<bool()>& late) {
+    for (CampaignRun& run : runs) run.request.options.rtl = command_.rtl;
+    const CampaignProgress before = total_.progress;
+    CampaignResult result = run_campaign(
+        runs, command_.options, store_,
+        [&](const CampaignProgress& progress) { display_(before + progress); },
+        [&] { return interrupted != 0 || late(); });
+    total_.progress = before + result.progress;
+    total_.interrupted = interrupted != 0 || (result.interrupted && !late());
+    for (StoredRun& run : result.not_passed) total_.not_passed.push_back(std::move(run));
+  }
+
+  bool stopped() const { return total_.interrupted; }
+
+  // The exit status.
+  int finish() {
+    display_.clear();
+    print_or_throw(campaign_text(total_, store_, command_.database, color_wanted()));
+    if (command_.finish) command_.finish(store_);
+    if (interrupted != 0) return kInterrupted;
+    const CampaignProgress& p = total_.progress;
+    return p.crashed > 0 ? kToolFailed : p.failed + p.timed_out > 0 ? kCheckFailed : 0;
+  }
+
+ private:
+  CampaignCommand& command_;
+  Store store_;
+  CampaignDisplay display_;
+  InterruptHandler handler_;
+  CampaignResult total_;
+};
+
 }  // namespace
 
 void CampaignCommand::add_to(CLI::App& command) {
-  command.add_option("--db", database, "SQLite file that keeps the results; what it has is not "
-                                       "computed again")
+  command
+      .add_option("--db", database,
+                  "SQLite file that keeps the results; what it has is not "
+                  "computed again")
       ->type_name("FILE");
   command.add_option("-j,--jobs", options.jobs, "Runs at once; 0: one for each core")
       ->capture_default_str()
@@ -101,30 +161,42 @@ void CampaignCommand::add_to(CLI::App& command) {
   command.add_flag("--fail-fast", options.fail_fast, "Begin no run after the first that failed");
 }
 
-int CampaignCommand::run(std::vector<CampaignRun> runs, const std::vector<std::string>& keys,
-                         CampaignResult* result) {
-  parse_shard(shard, options);
-  for (CampaignRun& run : runs) run.request.options.rtl = rtl;
-  Store store(database, Store::Access::write, kind);
-  store.add_keys(keys);
-  if (!shard.empty()) store.add_shard(shard);
-  CampaignDisplay display;
-  CampaignResult done;
-  {
-    const InterruptHandler handler;
-    done = run_campaign(
-        runs, options, store, [&](const CampaignProgress& progress) { display(progress); },
-        [] { return interrupted != 0; });
+int CampaignCommand::run(const Plan& plan) {
+  std::vector<CampaignRun> runs;
+  for (PlanPoint& point : points_of(plan)) {
+    runs.push_back({std::move(point.request), std::move(point.values)});
   }
-  display.clear();
-  print_or_throw(campaign_text(done, store, database, again, color_wanted()));
-  const CampaignProgress& p = done.progress;
-  const int status = interrupted != 0            ? kInterrupted
-                     : p.crashed > 0             ? kToolFailed
-                     : p.failed + p.timed_out > 0 ? kCheckFailed
-                                                 : 0;
-  if (result != nullptr) *result = std::move(done);
-  return status;
+  std::vector<std::string> keys;
+  for (const Axis& axis : plan.axes) keys.push_back(axis.key);
+  for (const Tie& tie : plan.ties) keys.push_back(tie.key);
+  Session session(*this, keys);
+  session.add(std::move(runs), [] { return false; });
+  return session.finish();
+}
+
+int CampaignCommand::run_random(std::uint64_t seed, std::uint64_t count, double seconds) {
+  std::vector<std::string> keys = {"scene", "hardware", "technology"};
+  for (const Setting<Hardware>& setting : hardware_settings()) keys.push_back(setting.name());
+  for (const RunOption& option : run_options()) keys.emplace_back(option.name);
+  options.overflow_is_refusal = true;
+  Session session(*this, keys);
+  const auto start = std::chrono::steady_clock::now();
+  const auto late = [&] {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
+    return seconds > 0 && passed.count() >= seconds;
+  };
+  constexpr std::uint64_t kRound = 512;
+  for (std::uint64_t done = 0; (count == 0 || done < count) && !late() && !session.stopped();) {
+    const std::uint64_t size = count == 0 ? kRound : std::min(kRound, count - done);
+    std::vector<CampaignRun> runs;
+    for (std::uint64_t i = done; i < done + size; ++i) {
+      const RunRequest request = random_run(seed, i);
+      runs.push_back({request, values_of(request)});
+    }
+    session.add(std::move(runs), late);
+    done += size;
+  }
+  return session.finish();
 }
 
 }  // namespace phongpipe

@@ -2,26 +2,28 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
 #include <string>
-#include <vector>
 
 #include "testbench/campaign/campaign.h"
+#include "testbench/campaign/plan.h"
 
 namespace phongpipe {
 
 struct CampaignCommand {
   std::string kind;      // "sweep" or "regress"
-  std::string database;  // file; of sweep and regress alike
+  std::string database;  // file, or Store::kInMemory
   std::string shard;     // I/N
   RtlToVerify rtl = RtlToVerify::native;
   CampaignOptions options;
-  std::string again;  // the command line, to go on after Ctrl-C
+  std::function<void(const Store&)> finish;  // called with all results, if set
 
   void add_to(CLI::App& command);
-  // Does the runs; shows progress, then the answer. `keys`: those that vary. Returns the exit
-  // status. `result`, if not null, takes what was done.
-  int run(std::vector<CampaignRun> runs, const std::vector<std::string>& keys,
-          CampaignResult* result = nullptr);
+  // Both do the runs, show progress, then the answer, and return the exit status.
+  int run(const Plan& plan);
+  // Begins random runs until there were `count`, or for `seconds`; 0: no limit.
+  int run_random(std::uint64_t seed, std::uint64_t count, double seconds);
 };
 
 // Exit status after Ctrl-C, as shells have it.

@@ -71,7 +71,8 @@ int compare_methods(const Options& options) {
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   std::string csv;
   std::vector<Scene> scenes;
-  for (const std::string& name : options.scenes) scenes.push_back(load_named_scene(name, options.hardware.overrides));
+  for (const std::string& name : options.scenes)
+    scenes.push_back(load_named_scene(name, options.hardware.overrides));
   for (const Scene& scene : scenes) {
     const Comparison comparison = compare(
         scene, hardware, [&](const std::string& what) { progress(what); },

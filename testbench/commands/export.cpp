@@ -1,4 +1,5 @@
-// phongpipe export: the results of a campaign as CSV or JSON. phongpipe merge: shards into one file.
+// phongpipe export: the results of a campaign as CSV or JSON. phongpipe merge: shards into one
+// file.
 #include <fmt/format.h>
 
 #include <memory>

@@ -57,6 +57,7 @@ int run_program(int argc, char** argv) {
   add_render(application, run);
   add_compare(application, run);
   add_sweep(application, run);
+  add_regress(application, run);
   add_export(application, run);
   add_merge(application, run);
   const auto asked_for = [&](const char* flag) {

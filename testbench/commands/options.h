@@ -26,6 +26,7 @@ using Run = std::function<int()>;  // returns the exit status
 void add_compare(CLI::App& application, Run& run);
 void add_export(CLI::App& application, Run& run);
 void add_merge(CLI::App& application, Run& run);
+void add_regress(CLI::App& application, Run& run);
 void add_render(CLI::App& application, Run& run);
 void add_sweep(CLI::App& application, Run& run);
 void add_verify(CLI::App& application, Run& run);

@@ -60,7 +60,8 @@ class Verifier {
   int run() {
     // A mistake in the last scene must not cost the work on those before.
     std::vector<Scene> scenes;
-    for (const std::string& name : options_.scenes) scenes.push_back(load_named_scene(name, options_.hardware.overrides));
+    for (const std::string& name : options_.scenes)
+      scenes.push_back(load_named_scene(name, options_.hardware.overrides));
     check_outputs();
     for (std::size_t i = 0; i < scenes.size(); ++i) verify_scene(scenes[i], names_[i]);
     if (scenes.size() > 1 && options_.json != "-") {

@@ -91,7 +91,8 @@ std::vector<Metric> all_metrics() {
       {"datapath_cycles_rtl", "/cycles/datapath_rtl", "cycles", kLess,
        "until the RTL has delivered the last pixel",
        [](const Result& r) {
-         return of_rtl(r, [](const ImplementationResult& rtl) { return rtl.counts.datapath_cycles; });
+         return of_rtl(r,
+                       [](const ImplementationResult& rtl) { return rtl.counts.datapath_cycles; });
        }},
       {"datapath_cycles_systemc", "/cycles/datapath_systemc", "cycles", kLess,
        "until SystemC's pixel_datapath has delivered the last pixel",
@@ -185,8 +186,8 @@ const std::vector<Metric>& metrics() {
 
 std::size_t metric_index(std::string_view name) {
   const auto& all = metrics();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const Metric& metric) { return metric.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const Metric& metric) { return metric.name == name; });
   if (found == all.end()) throw std::out_of_range(fmt::format("no metric {}", name));
   return static_cast<std::size_t>(found - all.begin());
 }

@@ -61,9 +61,10 @@ struct Failure {
 };
 
 Failure failure_of(const char* name, const ImplementationResult& found) {
-  std::string message = fmt::format("{} differs from the model in {} pixels of the stream and {} of "
-                                    "the frame",
-                                    name, found.stream_mismatches, found.frame_mismatches);
+  std::string message = fmt::format(
+      "{} differs from the model in {} pixels of the stream and {} of "
+      "the frame",
+      name, found.stream_mismatches, found.frame_mismatches);
   if (!found.counts.failure.empty()) message += "; " + found.counts.failure;
   if (found.first_divergence) {
     const Divergence& d = *found.first_divergence;
@@ -93,8 +94,9 @@ Failure failure_of(const VerificationResult& r) {
                                    r.full_hardware->systemc.frame_mismatches)};
   }
   if (r.set_up.overflows > 0) {
-    return {"overflow", fmt::format("{} triangles have values that do not fit their registers",
-                                    r.set_up.overflows)};
+    return {std::string(kOverflow),
+            fmt::format("{} triangles have values that do not fit their registers",
+                        r.set_up.overflows)};
   }
   return {"budget", fmt::format("{:.2f} ns a pixel, over the budget of {:.10g}",
                                 r.frame_ns_per_pixel(), r.options.budget_ns)};

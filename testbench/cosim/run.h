@@ -18,9 +18,9 @@ constexpr int kArithmeticVersion = 1;
 
 // What to verify, as on the command line of `phongpipe verify`.
 struct RunRequest {
-  std::string scene;                   // file, or name of a shipped or random scene
-  std::string hardware = "default";    // preset or file
-  std::vector<std::string> settings;   // key=value, as for --set
+  std::string scene;                  // file, or name of a shipped or random scene
+  std::string hardware = "default";   // preset or file
+  std::vector<std::string> settings;  // key=value, as for --set
   VerificationOptions options;
 };
 
@@ -58,6 +58,9 @@ std::string_view name(Outcome outcome);
 // How pixels were verified, from the weakest to the strongest.
 enum class VerifiedBy { nothing, model, native };
 std::string_view name(VerifiedBy verified_by);
+
+// Bucket of runs that agree, but have values that do not fit their registers.
+constexpr std::string_view kOverflow = "overflow";
 
 struct RunResult {
   Outcome outcome = Outcome::crashed;

@@ -10,8 +10,8 @@
 namespace phongpipe {
 namespace {
 
-// Records are taken apart by structured bindings: a member that is added does not compile here until
-// it is hashed.
+// Records are taken apart by structured bindings: a member that is added does not compile here
+// until it is hashed.
 class SceneHasher {
  public:
   template <typename... Values>
@@ -70,8 +70,8 @@ class SceneHasher {
     add(viewer, highlight, ambient_light);
   }
   void add_one(const Light& light) {
-    const auto& [type, direction, position, color, attenuation, spot_exponent, spot_cutoff_degrees] =
-        light;
+    const auto& [type, direction, position, color, attenuation, spot_exponent,
+                 spot_cutoff_degrees] = light;
     add(type, direction, position, color, attenuation, spot_exponent, spot_cutoff_degrees);
   }
   void add_one(const Material& material) {

@@ -9,14 +9,16 @@ int main(int argc, char** argv) {
   try {
     phongpipe::RtlBuildOptions options;
     options.destination = argv[1];
+    std::vector<phongpipe::DatapathConfiguration> configurations;
     for (int i = 2; i < argc; ++i) {
       const phongpipe::Hardware hardware = phongpipe::load_hardware(argv[i], {});
       for (const int channels : {1, 3}) {
         phongpipe::DatapathConfiguration datapath{hardware.formats, {}};
         datapath.channels = channels;
-        const phongpipe::RtlLibrary library(datapath, options);
+        configurations.push_back(datapath);
       }
     }
+    phongpipe::build_missing_rtl(configurations, options);
     return 0;
   } catch (const std::exception& error) {
     fmt::print(stderr, "build_rtl: {}\n", error.what());

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "testbench/campaign/pareto.h"
 #include "testbench/cosim/metrics_json.h"
@@ -36,63 +38,62 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-// Exactly as it was computed: the shortest text that reads back as the same number.
-std::string exact_text(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
-  const MetricValue& value = std::get<MetricValue>(cell);
-  if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
-  if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
-  return {};
-}
-
-std::optional<double> number_in(const Cell& cell) {
-  const auto* value = std::get_if<MetricValue>(&cell);
-  if (value == nullptr) return std::nullopt;
-  if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
-  if (const auto* number = std::get_if<double>(value)) return *number;
-  return std::nullopt;
-}
-
 // The points of the front, a line each.
-void add_front(std::string& text, const ResultTable& table, const Store& store) {
-  const auto column = [&](std::string_view name) {
-    return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), name) -
-                                    table.columns.begin());
-  };
-  const std::size_t outcome = column("outcome"), error = column("max_lsb"),
-                    time = column("frame_ns_per_pixel");
+void add_front(std::string& text, const Store& store) {
+  const ResultTable table = store.table();
   std::vector<std::optional<ParetoPoint>> points;
-  for (const auto& row : table.rows) {
+  std::map<std::string, std::set<std::string>> values;  // of the keys
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
     points.emplace_back();
-    const auto a = number_in(row[time]), b = number_in(row[error]);
-    if (exact_text(row[outcome]) == "passed" && a && b) points.back() = ParetoPoint{*a, *b};
+    for (const std::string& key : store.keys()) values[key].insert(table.text(row, key));
+    const auto time = table.number(row, "frame_ns_per_pixel"), error = table.number(row, "max_lsb");
+    if (table.text(row, "outcome") == "passed" && time && error) {
+      points.back() = ParetoPoint{*time, *error};
+    }
   }
   const std::vector<std::size_t> front = pareto_front(points);
   if (front.empty()) return;
-  text += fmt::format("  front    {} of {} points: the least error for their time\n", front.size(),
-                      count_text(table.rows.size()));
-  constexpr std::size_t kMostLines = 8;
-  for (std::size_t i = 0; i < std::min(front.size(), kMostLines); ++i) {
-    const auto& row = table.rows[front[i]];
-    std::string where;
-    for (const std::string& key : store.keys()) {
-      where += fmt::format("  {}={}", key, printable(exact_text(row[column(key)])));
+  text += fmt::format("  front    {} of {} points have the least error for their time\n",
+                      front.size(), count_text(table.rows.size()));
+  constexpr std::size_t kMostLines = 5;
+  std::size_t lines = 0;
+  std::string before;
+  for (const std::size_t row : front) {
+    const std::string measures =
+        fmt::format("{:.2f} ns a pixel, at most {:.2f} LSB", points[row]->a, points[row]->b);
+    if (measures == before) continue;  // as good as the one before
+    before = measures;
+    if (++lines > kMostLines) {
+      text += "           …\n";
+      return;
     }
-    text += fmt::format("           {:.2f} ns a pixel, at most {:.2f} LSB{}\n", points[front[i]]->a,
-                        points[front[i]]->b, where);
+    text += fmt::format("           {}:", measures);
+    for (const std::string& key : store.keys()) {
+      if (values[key].size() < 2) continue;
+      text +=
+          fmt::format(" {}={}", key.substr(key.rfind('.') + 1), printable(table.text(row, key)));
+    }
+    text += '\n';
   }
-  if (front.size() > kMostLines) text += "           …\n";
 }
 
-// Failures by bucket; of each the first, with the command that shows it again.
+// Failures are compared by the pixels that they shaded, then by the settings that they name.
+std::pair<double, std::size_t> size_of(const StoredRun& run) {
+  static const std::size_t pixels = metric_index("pixels");
+  const bool has_metrics = !run.result.metrics.empty();
+  return {has_metrics ? static_cast<double>(std::get<std::int64_t>(run.result.metrics[pixels]))
+                      : std::numeric_limits<double>::max(),
+          run.command.size()};
+}
+
+// Failures by bucket; of each the smallest, with the command that shows it again.
 void add_failures(std::string& text, const CampaignResult& result) {
   std::map<std::string, std::vector<const StoredRun*>> buckets;
   for (const StoredRun& run : result.not_passed) buckets[run.result.bucket].push_back(&run);
   for (const auto& [bucket, runs] : buckets) {
     const StoredRun& smallest = **std::min_element(
-        runs.begin(), runs.end(), [](const StoredRun* a, const StoredRun* b) {
-          return a->seconds < b->seconds;
-        });
+        runs.begin(), runs.end(),
+        [](const StoredRun* a, const StoredRun* b) { return size_of(*a) < size_of(*b); });
     text += fmt::format("  {:<8} {} × {}: {}\n", name(smallest.result.outcome), runs.size(), bucket,
                         printable(smallest.result.message));
     text += fmt::format("    again  {}\n", printable(smallest.command));
@@ -110,12 +111,12 @@ std::string csv_cell(const std::string& text) {
 
 std::string progress_line(const CampaignProgress& p) {
   const std::uint64_t done = p.done(), left = p.total - p.known - done;
-  std::string text = fmt::format("{} of {}{}", count_text(p.known + done), count_text(p.total),
-                                 outcomes(p));
+  std::string text =
+      fmt::format("{} of {}{}", count_text(p.known + done), count_text(p.total), outcomes(p));
   if (done > 0 && p.seconds > 0) {
     const double rate = static_cast<double>(done) / p.seconds;
-    text += fmt::format(", {:.1f} a second, {} left", rate,
-                        duration(static_cast<double>(left) / rate));
+    text +=
+        fmt::format(", {:.1f} a second, {} left", rate, duration(static_cast<double>(left) / rate));
   }
   if (p.best) {
     text += fmt::format("; best so far {:.2f} LSB at {:.2f} ns", p.best->max_lsb,
@@ -125,27 +126,30 @@ std::string progress_line(const CampaignProgress& p) {
 }
 
 std::string campaign_text(const CampaignResult& result, const Store& store, const std::string& file,
-                          const std::string& again, bool color) {
+                          bool color) {
   const CampaignProgress& p = result.progress;
   const std::uint64_t failures = p.failed + p.crashed + p.timed_out;
   const bool good = failures == 0 && !result.interrupted;
   std::string verdict = result.interrupted ? "STOPPED" : failures > 0 ? "FAILED" : "PASSED";
   if (color) {
-    verdict = fmt::format(fmt::emphasis::bold | fmt::fg(good ? fmt::terminal_color::green
-                                                             : fmt::terminal_color::red),
-                          "{}", verdict);
+    verdict = fmt::format(
+        fmt::emphasis::bold | fmt::fg(good ? fmt::terminal_color::green : fmt::terminal_color::red),
+        "{}", verdict);
   }
   std::string text = fmt::format("{} {}  {} of {} runs passed{}", verdict, store.kind(),
                                  count_text(p.passed), count_text(p.total - p.known), outcomes(p));
   if (p.known > 0) text += fmt::format("; {} were known", count_text(p.known));
   text += fmt::format("; {}\n", duration(p.seconds));
   add_failures(text, result);
-  if (store.kind() == "sweep") add_front(text, store.table(), store);
-  if (result.interrupted) text += fmt::format("  go on    {}\n", again);
-  if (!file.empty()) {
-    text += fmt::format("  more     phongpipe export {0} --csv -, phongpipe report {0} -o report.html\n",
-                        printable(file));
+  if (store.kind() == "sweep") add_front(text, store);
+  if (file == Store::kInMemory) return text;
+  if (result.interrupted) {
+    text += fmt::format("  go on    the same command does the other {} runs\n",
+                        count_text(p.total - p.known - p.done()));
   }
+  text +=
+      fmt::format("  more     phongpipe export {0} --csv -, phongpipe report {0} -o report.html\n",
+                  printable(file));
   return text;
 }
 

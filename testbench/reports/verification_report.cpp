@@ -253,8 +253,7 @@ ordered_json effects_json(const VerificationResult& r) {
   for_each_block_metric(r,
                         [&](const Metric& metric, const MetricValue& own, const MetricValue& full) {
                           json["built"][std::string(metric.name)] = own;
-                          if (r.full_hardware)
-                            json["everything"][std::string(metric.name)] = full;
+                          if (r.full_hardware) json["everything"][std::string(metric.name)] = full;
                         });
   json["built"]["modules"] = r.systemc.counts.modules;
   if (r.full_hardware) {
@@ -295,9 +294,10 @@ std::string report_text(const VerificationResult& r, const ReportStyle& style) {
   Page page(style.color);
   page.plain(heading(page, r));
   if (r.agrees()) {
-    page.line("same",
-              fmt::format("model = SystemC{}, every pixel and every cycle ({})", r.rtl ? " = RTL" : "",
-                          grouped(static_cast<std::uint64_t>(r.systemc.counts.frame_cycles))));
+    page.line(
+        "same",
+        fmt::format("model = SystemC{}, every pixel and every cycle ({})", r.rtl ? " = RTL" : "",
+                    grouped(static_cast<std::uint64_t>(r.systemc.counts.frame_cycles))));
   }
   page.line("time", time_text(page, r));
   page.line("error", error_text(r));

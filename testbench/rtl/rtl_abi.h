@@ -1,4 +1,5 @@
-// Interface of a Verilated pixel_datapath, built as a shared library, to the program that loads it.
+// Interface of Verilated pixel_datapaths, built as a shared library, to the program that loads
+// them.
 #pragma once
 
 #include <cstddef>
@@ -48,5 +49,7 @@ struct RtlInterface {
                        std::size_t count, RtlPixel* pixels);
 };
 
-const RtlInterface* phongpipe_rtl_interface();
+// The interface of the variant with these parameters, written as rtl_parameters_text() has them;
+// null if the library does not contain it.
+const RtlInterface* phongpipe_rtl_interface(const char* parameters);
 }

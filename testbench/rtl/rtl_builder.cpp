@@ -18,6 +18,7 @@
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
 #include "testbench/system/installation.h"
+#include "testbench/system/output_file.h"
 #include "testbench/system/process.h"
 #include "testbench/system/terminal.h"
 #include "testbench/system/tool_error.h"
@@ -25,16 +26,6 @@
 namespace phongpipe {
 namespace fs = std::filesystem;
 namespace {
-
-// The parameters of the RTL as options of a tool: prefix, name, = and value.
-std::vector<std::string> parameter_options(std::string_view prefix,
-                                           const DatapathConfiguration& configuration) {
-  std::vector<std::string> options;
-  for (const auto& [name, value] : rtl_parameters(configuration)) {
-    options.push_back(fmt::format("{}{}={}", prefix, name, value));
-  }
-  return options;
-}
 
 bool starts_with(std::string_view text, std::string_view prefix) {
   return text.substr(0, prefix.size()) == prefix;
@@ -177,8 +168,36 @@ std::string verilator_include(const fs::path& folder) {
   return root + "/include";
 }
 
-void append(std::vector<std::string>& command, const std::vector<std::string>& words) {
-  command.insert(command.end(), words.begin(), words.end());
+// The prefix of what Verilator generates for target i. None is the beginning of another's files.
+std::string variant_name(std::size_t i) {
+  return fmt::format("Vpixel_datapath_{}", i);
+}
+
+void verilate(const DatapathConfiguration& configuration, const std::string& prefix,
+              const std::vector<Source>& sources, const fs::path& folder) {
+  std::vector<std::string> command = {
+      "verilator", "--cc", "-O3",          "-Wall",          "--Mdir", ".",
+      "--prefix",  prefix, "--top-module", "pixel_datapath", "-Irtl"};
+  for (const auto& [name, value] : rtl_parameters(configuration)) {
+    command.push_back(fmt::format("-G{}={}", name, value));
+  }
+  for (const Source& source : sources) {
+    if (source.original.extension() == ".sv") command.push_back(source.copy);
+  }
+  run_or_throw(command, folder, sources);
+}
+
+// The .cpp files that Verilator made for a prefix, sorted.
+std::vector<fs::path> generated_files(const fs::path& folder, const std::string& prefix) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".cpp" || !starts_with(name, prefix)) continue;
+    const char next = name[prefix.size()];
+    if (next == '.' || next == '_') files.push_back(entry.path().filename());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 }  // namespace
@@ -202,54 +221,63 @@ std::vector<fs::path> rtl_sources(const fs::path& folder) {
   return files;
 }
 
+std::string rtl_parameters_text(const DatapathConfiguration& configuration) {
+  std::string text;
+  for (const auto& [name, value] : rtl_parameters(configuration)) {
+    text += fmt::format("{}{}={}", text.empty() ? "" : "-", name, value);
+  }
+  return text;
+}
+
 // The tools run in the scratch folder and get only names relative to it, or of the installation:
-// Verilator is a Perl script that mangles others.
-void build_rtl(const DatapathConfiguration& configuration, const fs::path& sources_folder,
-               const fs::path& library) try {
-  const fs::path destination = fs::absolute(library).parent_path();
+// Verilator is a Perl script that mangles others. All that it generates is compiled as one file,
+// for most of the time of a file goes into headers.
+void build_rtl(const std::vector<RtlTarget>& targets, const fs::path& sources_folder) try {
+  const fs::path destination = fs::absolute(targets.front().file).parent_path();
   sweep_abandoned(destination);
   const ScratchFolder scratch(destination);
   const fs::path& folder = scratch.path();
   const std::string include = verilator_include(folder);
   const std::vector<Source> sources = copy_sources(sources_folder, folder);
-
-  std::vector<std::string> verilate = {"verilator",    "--cc",
-                                       "-O3",          "-Wall",
-                                       "--Mdir",       ".",
-                                       "--prefix",     "Vpixel_datapath",
-                                       "--top-module", "pixel_datapath",
-                                       "-Irtl"};
-  append(verilate, parameter_options("-G", configuration));
-  for (const Source& source : sources) {
-    if (source.original.extension() == ".sv") verilate.push_back(source.copy);
+  std::string unity = "#include \"rtl_shim.h\"\n", choice;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const DatapathConfiguration& configuration = targets[i].configuration;
+    const std::string prefix = variant_name(i);
+    verilate(configuration, prefix, sources, folder);
+    for (const fs::path& file : generated_files(folder, prefix)) {
+      unity += fmt::format("#include \"{}\"\n", file.string());
+    }
+    unity += fmt::format("struct Parameters{} {{\n", i);
+    for (const auto& [name, value] : rtl_parameters(configuration)) {
+      unity += fmt::format("  static constexpr int {} = {};\n", name, value);
+    }
+    unity += "};\n";
+    choice += fmt::format("  if (asked == \"{}\") return &kRtlInterface<{}, Parameters{}>;\n",
+                          rtl_parameters_text(configuration), prefix, i);
   }
-  run_or_throw(verilate, folder, sources);
-
-  const fs::path& shim = installation().rtl_shim;
-  std::vector<std::string> compile = {"g++",
-                                      "-std=c++17",
-                                      "-O3",
-                                      "-fPIC",
-                                      "-shared",
-                                      "-fvisibility=hidden",
-                                      "-I" + include,
-                                      "-I" + include + "/vltstd",
-                                      "-I.",
-                                      "-I" + shim.string(),
-                                      "-I" + installation().include.string()};
-  append(compile, parameter_options("-DPHONGPIPE_", configuration));
-  compile.push_back((shim / "rtl_shim.cpp").string());
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() == ".cpp") compile.push_back(entry.path().filename().string());
-  }
+  unity += fmt::format(
+      "#include <string_view>\n"
+      "extern \"C\" __attribute__((visibility(\"default\"))) const RtlInterface* "
+      "phongpipe_rtl_interface(const char* parameters) {{\n"
+      "  const std::string_view asked = parameters;\n{}  return nullptr;\n}}\n",
+      choice);
+  write_text(folder / "unity.cpp", unity);
   const std::string built = "pixel_datapath.so";
-  append(compile, {(installation().libraries / "libphongpipe_verilated.a").string(), "-pthread",
-                   "-o", built});
-  run_or_throw(compile, folder, sources);
-  fs::rename(folder / built, library);
+  run_or_throw(
+      {"g++", "-std=c++17", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-I" + include,
+       "-I" + include + "/vltstd", "-I.", "-I" + installation().rtl_shim.string(),
+       "-I" + installation().include.string(), "unity.cpp",
+       (installation().libraries / "libphongpipe_verilated.a").string(), "-pthread", "-o", built},
+      folder, sources);
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    // A link of the same name may have been made by another process meanwhile.
+    const fs::path link = folder / fmt::format("link{}", i);
+    fs::create_hard_link(folder / built, link);
+    fs::rename(link, targets[i].file);
+  }
 } catch (const fs::filesystem_error& error) {
-  throw ToolError(fmt::format("{}: building the RTL failed: {}", printable(library.string()),
-                              error.code().message()));
+  throw ToolError(fmt::format("{}: building the RTL failed: {}",
+                              printable(targets.front().file.string()), error.code().message()));
 }
 
 }  // namespace phongpipe

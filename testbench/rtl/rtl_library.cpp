@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <set>
 #include <vector>
 
 #include "model/files/text_file.h"
@@ -17,20 +18,11 @@ namespace phongpipe {
 namespace fs = std::filesystem;
 namespace {
 
-// Names the configuration in file names and messages.
-std::string parameters(const DatapathConfiguration& configuration) {
-  std::string text;
-  for (const auto& [name, value] : rtl_parameters(configuration)) {
-    text += fmt::format("{}{}={}", text.empty() ? "" : "-", name, value);
-  }
-  return text;
-}
-
-// The library's name carries a hash of what it is built from, so that a changed RTL is never
+// Hash of what libraries are built from. Their names carry it, so that a changed RTL is never
 // answered with an old library.
-std::string library_name(const DatapathConfiguration& configuration, const fs::path& sources) {
+std::uint64_t source_hash(const fs::path& sources) {
   std::vector<fs::path> files = rtl_sources(sources);
-  for (const char* file : {"rtl_abi.h", "rtl_shim.cpp"}) {
+  for (const char* file : {"rtl_abi.h", "rtl_shim.h"}) {
     files.push_back(installation().rtl_shim / file);
   }
   FnvHash hash;
@@ -40,7 +32,7 @@ std::string library_name(const DatapathConfiguration& configuration, const fs::p
     hash.add(text.size());
     hash.add(text);
   }
-  return fmt::format("pixel_datapath-{}-{:016x}.so", parameters(configuration), hash.value());
+  return hash.value();
 }
 
 fs::path user_cache() {
@@ -52,30 +44,70 @@ fs::path user_cache() {
          "phongpipe";
 }
 
+// Where the libraries of one folder of sources are.
+class LibraryFiles {
+ public:
+  explicit LibraryFiles(const RtlBuildOptions& options)
+      : sources_(options.sources.empty() ? installation().hardware : options.sources),
+        kept_(options.destination.empty() ? user_cache() : options.destination),
+        hash_(source_hash(sources_)) {}
+
+  const fs::path& sources() const { return sources_; }
+  // The file, which need not exist.
+  fs::path file_of(const DatapathConfiguration& configuration) const {
+    const std::string name =
+        fmt::format("pixel_datapath-{}-{:016x}.so", rtl_parameters_text(configuration), hash_);
+    fs::path installed = installation().libraries / "rtl" / name;
+    std::error_code none;
+    return fs::exists(installed, none) ? installed : kept_ / name;
+  }
+
+ private:
+  fs::path sources_, kept_;
+  std::uint64_t hash_;
+};
+
 }  // namespace
 
-RtlLibrary::RtlLibrary(const DatapathConfiguration& configuration, const RtlBuildOptions& options) {
-  configuration.check();
-  const fs::path sources = options.sources.empty() ? installation().hardware : options.sources;
-  const std::string name = library_name(configuration, sources);
-  const fs::path kept = options.destination.empty() ? user_cache() : options.destination;
-  std::error_code none;
-  file_ = installation().libraries / "rtl" / name;
-  if (!fs::exists(file_, none)) file_ = kept / name;
-  if (!fs::exists(file_, none)) {
-    if (options.progress) options.progress(parameters(configuration));
-    build_rtl(configuration, sources, file_);
+void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
+                       const RtlBuildOptions& options) {
+  const LibraryFiles files(options);
+  std::vector<RtlTarget> missing;
+  std::set<fs::path> seen;
+  for (const DatapathConfiguration& configuration : configurations) {
+    configuration.check();
+    fs::path file = files.file_of(configuration);
+    std::error_code none;
+    if (fs::exists(file, none) || !seen.insert(file).second) continue;
+    missing.push_back({configuration, std::move(file)});
   }
+  if (missing.empty()) return;
+  if (options.progress) {
+    options.progress(missing.size() == 1 ? rtl_parameters_text(missing.front().configuration)
+                                         : fmt::format("{} configurations", missing.size()));
+  }
+  build_rtl(missing, files.sources());
+}
+
+RtlLibrary::RtlLibrary(const DatapathConfiguration& configuration, const RtlBuildOptions& options) {
+  build_missing_rtl({configuration}, options);
+  file_ = LibraryFiles(options).file_of(configuration);
   handle_ = dlopen(file_.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle_ == nullptr) {
     throw ToolError(fmt::format("{}; remove the file to have it built anew", printable(dlerror())));
   }
-  const auto get =
-      reinterpret_cast<const RtlInterface* (*)()>(dlsym(handle_, "phongpipe_rtl_interface"));
+  const auto get = reinterpret_cast<decltype(&phongpipe_rtl_interface)>(
+      dlsym(handle_, "phongpipe_rtl_interface"));
   if (get == nullptr) {
     throw ToolError(fmt::format("{}: {}", printable(file_.string()), dlerror()));
   }
-  interface_ = get();
+  interface_ = get(rtl_parameters_text(configuration).c_str());
+  if (interface_ == nullptr) {
+    throw ToolError(
+        fmt::format("{}: not the RTL that its name says; remove the file to have it "
+                    "built anew",
+                    printable(file_.string())));
+  }
 }
 
 RtlLibrary::~RtlLibrary() {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "sim/clocked_datapath.h"
 #include "testbench/rtl/rtl_abi.h"
@@ -17,6 +18,11 @@ struct RtlBuildOptions {
   std::filesystem::path destination;  // where a new library is kept; empty: the user's cache
   std::function<void(const std::string&)> progress;  // called with what is being built, if anything
 };
+
+// Builds the libraries of the configurations that are not built yet, together, which is faster than
+// one by one. Throws as RtlLibrary does.
+void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
+                       const RtlBuildOptions& options);
 
 // Loads the library, after building it if necessary. Throws InputError if there are no sources,
 // ToolError if building or loading fails.

@@ -23,15 +23,12 @@ const Installation& installation() {
                       "cmake --install lays them out",
                       shared.string()));
     }
-    return Installation{shared / "hw", shared / "rtl", shared / "include", shared / "scenes",
-                        shared / "sweeps", prefix / "lib" / "phongpipe"};
+    return Installation{shared / "hw",     shared / "rtl",    shared / "include",
+                        shared / "scenes", shared / "sweeps", prefix / "lib" / "phongpipe"};
   }();
   return found;
 }
 
-namespace {
-
-// Of the .toml files in a folder and its subfolders, as find_named() takes them.
 std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -41,6 +38,8 @@ std::vector<std::string> names_in(const fs::path& folder) {
   std::sort(names.begin(), names.end());
   return names;
 }
+
+namespace {
 
 // "pawn, torus, effects/{ambient, nettle}"
 std::string listed(const std::vector<std::string>& names) {

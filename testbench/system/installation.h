@@ -19,6 +19,9 @@ struct Installation {
 // Throws InputError if the program has been moved away from its files.
 const Installation& installation();
 
+// The names of the .toml files in a folder and its subfolders, as find_named() takes them; sorted.
+std::vector<std::string> names_in(const std::filesystem::path& folder);
+
 // The file `name` if it exists and is not a folder, else folder/name.toml. If neither exists,
 // throws InputError that lists the contents of the folder and its subfolders. `what`: "preset",
 // "technology card", …, for messages.

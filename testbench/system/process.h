@@ -37,8 +37,8 @@ class Child {
   int pipe_ = -1;
 };
 
-// Runs `work` in a child process that sends messages, in parallel with the caller. The child ignores
-// SIGINT: Ctrl-C is for the parent to answer.
+// Runs `work` in a child process that sends messages, in parallel with the caller. The child
+// ignores SIGINT: Ctrl-C is for the parent to answer.
 class Worker {
  public:
   using Send = std::function<void(const std::string& message)>;

@@ -56,7 +56,7 @@ class RtlBuilder : public ::testing::Test {
     fs::permissions(folder_ / "tools" / tool, fs::perms(0755));
     setenv("PATH", ((folder_ / "tools").string() + ":" + search_path_).c_str(), 1);
   }
-  void build() const { build_rtl(FrameConfiguration(), rtl(), library()); }
+  void build() const { build_rtl({{FrameConfiguration(), library()}}, rtl()); }
   // One line, and nothing stays behind.
   template <typename Error = ToolError>
   void expect_failure(const std::string& message) const {
@@ -179,7 +179,7 @@ TEST_F(RtlBuilder, AFolderWithoutRtlIsBadInput) {
 TEST_F(RtlBuilder, ACacheThatCannotBeWrittenIsNamed) {
   std::ofstream(folder_ / "file") << "in the way";
   try {
-    build_rtl(FrameConfiguration(), rtl(), folder_ / "file" / "cache" / "library.so");
+    build_rtl({{FrameConfiguration(), folder_ / "file" / "cache" / "library.so"}}, rtl());
     FAIL() << "it was built";
   } catch (const ToolError& error) {
     EXPECT_NE(std::string(error.what()).find("cache: RTL cannot be built there: Not a directory"),

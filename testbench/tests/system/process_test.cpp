@@ -15,6 +15,7 @@
 #include <new>
 #include <stdexcept>
 #include <typeinfo>
+#include <vector>
 
 #include "model/scene/input_error.h"
 #include "testbench/system/tool_error.h"
@@ -193,6 +194,36 @@ TEST(Child, TwoRunAtTheSameTime) {
   Child second([] { return "2"; });
   EXPECT_EQ(second.get(), "2");
   EXPECT_EQ(first.get(), "1");
+}
+
+TEST(Worker, SendsMessagesAndTellsHowItEnded) {
+  const auto all_of = [](Worker& worker) {
+    std::vector<std::string> messages;
+    while (!worker.ended()) {
+      for (std::string& message : worker.receive()) messages.push_back(std::move(message));
+    }
+    return messages;
+  };
+  const std::string large(1'000'000, 'x');
+  Worker good([&](const Worker::Send& send) {
+    send("");
+    send("first");
+    send(large);
+  });
+  EXPECT_EQ(all_of(good), (std::vector<std::string>{"", "first", large}));
+  EXPECT_EQ(good.failure(), "");
+  Worker killed([](const Worker::Send& send) {
+    send("before");
+    std::raise(SIGKILL);
+  });
+  EXPECT_EQ(all_of(killed), std::vector<std::string>{"before"});
+  EXPECT_EQ(killed.failure(), "signal 9");
+  Worker interrupted([](const Worker::Send& send) {
+    std::raise(SIGINT);
+    send("still here");
+  });
+  EXPECT_EQ(all_of(interrupted), std::vector<std::string>{"still here"});
+  EXPECT_EQ(interrupted.failure(), "");
 }
 
 }  // namespace

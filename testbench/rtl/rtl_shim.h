@@ -1,26 +1,18 @@
-// Compiled together with the Verilated pixel_datapath of one configuration: RtlInterface over it.
+// RtlInterface over a Verilated pixel_datapath. Compiled together with what Verilator generates.
+#pragma once
+
 #include "rtl_abi.h"
 
 #include <verilated.h>
 
 #include <type_traits>
 
-#include "Vpixel_datapath.h"
 #include "model/fixed/constants.h"
 
 namespace {
 
 using phongpipe::kCueWidth;
 using phongpipe::kOutputBits;
-
-#ifndef PHONGPIPE_CHANNELS
-#error "each parameter of pixel_datapath must be defined as PHONGPIPE_(its name)"
-#endif
-constexpr int kChannels = PHONGPIPE_CHANNELS;
-constexpr int kDiffuseWidth = phongpipe::diffuse_width(PHONGPIPE_DIFFUSE_FRACTION);
-constexpr int kSpecularWidth =
-    phongpipe::specular_width(PHONGPIPE_ROM_ADDRESS_BITS, PHONGPIPE_SPECULAR_FRACTION);
-constexpr int kRomDataBits = PHONGPIPE_ROM_DATA_BITS;
 
 // The low `width` bits of each value side by side, the first in the low bits, into a port of
 // whatever type Verilator chose for it.
@@ -48,7 +40,16 @@ void pack(Port& port, const Value* values, int count, int width) {
   }
 }
 
+// `Top`: the Verilated module. `Parameters`: a struct with its parameters as constants of the same
+// names.
+template <typename Top, typename Parameters>
 class Rtl {
+  static constexpr int kChannels = Parameters::CHANNELS;
+  static constexpr int kDiffuseWidth = phongpipe::diffuse_width(Parameters::DIFFUSE_FRACTION);
+  static constexpr int kSpecularWidth =
+      phongpipe::specular_width(Parameters::ROM_ADDRESS_BITS, Parameters::SPECULAR_FRACTION);
+  static constexpr int kRomDataBits = Parameters::ROM_DATA_BITS;
+
  public:
   Rtl() : top_(&context_) {
     top_.clk = 0;
@@ -144,18 +145,18 @@ class Rtl {
   }
 
   VerilatedContext context_;
-  Vpixel_datapath top_;
+  Top top_;
   const RtlSpan* presented_ = nullptr;
 };
 
-const RtlInterface kInterface = {
-    []() -> void* { return new Rtl; }, [](void* rtl) { delete static_cast<Rtl*>(rtl); },
-    [](void* rtl, RtlPorts* ports) { static_cast<Rtl*>(rtl)->clock(*ports); },
+template <typename Top, typename Parameters>
+const RtlInterface kRtlInterface = {
+    []() -> void* { return new Rtl<Top, Parameters>; },
+    [](void* rtl) { delete static_cast<Rtl<Top, Parameters>*>(rtl); },
+    [](void* rtl, RtlPorts* ports) { static_cast<Rtl<Top, Parameters>*>(rtl)->clock(*ports); },
     [](void* rtl, const std::uint8_t* cue_color, const RtlSpan* spans, std::size_t count,
-       RtlPixel* pixels) { return static_cast<Rtl*>(rtl)->run(cue_color, spans, count, pixels); }};
+       RtlPixel* pixels) {
+      return static_cast<Rtl<Top, Parameters>*>(rtl)->run(cue_color, spans, count, pixels);
+    }};
 
 }  // namespace
-
-extern "C" __attribute__((visibility("default"))) const RtlInterface* phongpipe_rtl_interface() {
-  return &kInterface;
-}

@@ -1,0 +1,25 @@
+// Options that say what varies: scenes, sweep files, --vary, --tie, --where and --sample.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "testbench/campaign/plan.h"
+#include "testbench/commands/options.h"
+
+namespace phongpipe {
+
+struct PlanOptions {
+  std::vector<std::string> inputs;  // scenes, and at most one sweep file or shipped sweep
+  HardwareOptions hardware;
+  std::vector<std::string> vary, ties, conditions;
+  std::uint64_t sample = 0, seed = 1;
+
+  void add_to(CLI::App& command);
+  // Throws InputError if there is no scene.
+  Plan plan() const;
+};
+
+}  // namespace phongpipe

@@ -1,0 +1,254 @@
+// sweep, regress, export and merge, as their user runs them.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "testbench/campaign/store.h"
+#include "testbench/tests/commands/program.h"
+
+namespace phongpipe {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Campaigns : public Program {
+ protected:
+  // A sweep of 12 points over a small sphere, by the model unless `more` says otherwise.
+  std::vector<std::string> sweep(const std::string& database,
+                                 const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments = {"sweep",  "sphere",
+                                          "--set",  "scene.image.width=96",
+                                          "--set",  "scene.image.height=96",
+                                          "--vary", "rom_address_bits=6:9",
+                                          "--vary", "diffuse_fraction_bits=4,8,16",
+                                          "--rtl",  "off",
+                                          "--db",   file(database)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return arguments;
+  }
+  ResultTable table(const std::string& database) const {
+    return Store(file(database), Store::Access::read).table();
+  }
+  // All of the table but what was measured with a clock.
+  std::string without_seconds(const std::string& database) const {
+    const ResultTable results = table(database);
+    std::string text;
+    for (const auto& row : results.rows) {
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        if (results.columns[i].find("seconds") != std::string::npos) continue;
+        text += exact_text(row[i]) + ",";
+      }
+      text += "\n";
+    }
+    return text;
+  }
+  static std::vector<std::string> words(const std::string& command) {
+    std::vector<std::string> result;
+    for (const std::string_view word : phongpipe::words(command)) result.emplace_back(word);
+    return result;
+  }
+};
+
+TEST_F(Campaigns, ASweepsRowsEqualVerifyToTheLastDigit) {
+  const ProcessOutput output =
+      run({"sweep", "sphere", "--set", "scene.image.width=96", "--vary",
+           "diffuse_fraction_bits=4,9", "--vary", "stall=0,30", "--db", file("a.db")});
+  ASSERT_EQ(output.status, 0) << output.text;
+  EXPECT_EQ(output.text.rfind("PASSED sweep  4 of 4 runs passed", 0), 0U) << output.text;
+  const ResultTable results = table("a.db");
+  ASSERT_EQ(results.rows.size(), 4U);
+  for (std::size_t row = 0; row < 4; ++row) {
+    EXPECT_EQ(results.text(row, "verified_by"), "native");
+    std::vector<std::string> command = words(results.text(row, "command"));
+    ASSERT_EQ(command[0] + command[1], "phongpipeverify");
+    command.erase(command.begin(), command.begin() + 2);
+    const nlohmann::json verified = verify(command);
+    EXPECT_EQ(results.text(row, "configuration_hash"), verified["configuration_hash"]);
+    for (const Metric& metric : metrics()) {
+      if (metric.json.empty()) continue;
+      const auto& value = verified.at(nlohmann::json::json_pointer(std::string(metric.json)));
+      if (value.is_null()) {
+        EXPECT_EQ(results.text(row, metric.name), "") << metric.name;
+      } else {
+        EXPECT_EQ(*results.number(row, metric.name), value.get<double>()) << metric.name;
+      }
+    }
+  }
+}
+
+TEST_F(Campaigns, WhatIsThereIsNotComputedAgain) {
+  ASSERT_EQ(run(sweep("a.db", {"--jobs", "1"})).status, 0);
+  const ResultTable before = table("a.db");
+  ASSERT_EQ(before.rows.size(), 12U);
+  const ProcessOutput again = run(sweep("a.db"));
+  EXPECT_NE(again.text.find("0 of 0 runs passed; 12 were known"), std::string::npos) << again.text;
+  EXPECT_EQ(before.rows, table("a.db").rows) << "seconds included";
+  ASSERT_EQ(run(sweep("b.db", {"--jobs", "3"})).status, 0);
+  EXPECT_EQ(without_seconds("a.db"), without_seconds("b.db"));
+  // A stronger verification is done, a weaker is not.
+  const ProcessOutput native =
+      run(sweep("a.db", {"--rtl", "native", "--where", "rom_address_bits==6"}));
+  EXPECT_NE(native.text.find("3 of 3 runs passed"), std::string::npos) << native.text;
+  EXPECT_NE(run(sweep("a.db")).text.find("12 were known"), std::string::npos);
+}
+
+TEST_F(Campaigns, KilledTwentyTimesItEqualsAnUninterruptedSweep) {
+  ASSERT_EQ(run(sweep("whole.db", {"--vary", "seed=1:12"})).status, 0);
+  std::string command = PHONGPIPE_PROGRAM;
+  for (const std::string& word : sweep("killed.db", {"--vary", "seed=1:12"})) command += " " + word;
+  std::map<std::string, std::string> seconds;  // by identity
+  int killed = 0;
+  for (int i = 0; i < 20; ++i) {
+    // So long that some runs end, and some do not.
+    killed +=
+        run_process({"sh", "-c",
+                     fmt::format("timeout -s KILL 0.{:02} {} >/dev/null 2>&1", 4 + i % 5, command)})
+            .status == 137;
+    if (!fs::exists(file("killed.db"))) continue;
+    ResultTable results;
+    try {
+      results = table("killed.db");
+    } catch (const std::exception&) {
+      continue;  // not yet a database: killed while it was made
+    }
+    for (std::size_t row = 0; row < results.rows.size(); ++row) {
+      const std::string identity = results.text(row, "identity");
+      const auto first = seconds.emplace(identity, results.text(row, "seconds"));
+      EXPECT_EQ(first.first->second, results.text(row, "seconds")) << "computed twice";
+    }
+    EXPECT_LE(seconds.size(), results.rows.size()) << "a finished run was lost";
+  }
+  EXPECT_GT(killed, 0);
+  ASSERT_EQ(run(sweep("killed.db", {"--vary", "seed=1:12"})).status, 0);
+  EXPECT_EQ(without_seconds("whole.db"), without_seconds("killed.db"));
+}
+
+TEST_F(Campaigns, ShardsMergeIntoTheWhole) {
+  ASSERT_EQ(run(sweep("whole.db")).status, 0);
+  for (const char* shard : {"1", "2", "3"}) {
+    ASSERT_EQ(
+        run(sweep(fmt::format("part{}.db", shard), {"--shard", fmt::format("{}/3", shard)})).status,
+        0);
+  }
+  const ProcessOutput output =
+      run({"merge", file("part1.db"), file("part2.db"), file("part3.db"), "-o", file("all.db")});
+  ASSERT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(output.text.find("12 runs of 3 files"), std::string::npos) << output.text;
+  EXPECT_EQ(without_seconds("whole.db"), without_seconds("all.db"));
+  expect_refused({"merge", file("part1.db"), "-o", file("part1.db")},
+                 "cannot be merged into itself");
+  expect_refused(sweep("x.db", {"--shard", "4/3"}), "write I/N");
+}
+
+TEST_F(Campaigns, ValuesOutOfRangeAreRefusedRowsAndFailOnlyIfAllAre) {
+  const ProcessOutput output = run(
+      {"sweep", "sphere", "--vary", "rom_address_bits=5:7", "--rtl", "off", "--db", file("a.db")});
+  EXPECT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(output.text.find("2 of 3 runs passed, 1 refused"), std::string::npos) << output.text;
+  EXPECT_EQ(table("a.db").text(0, "outcome"), "refused");
+  EXPECT_NE(table("a.db").text(0, "message").find("6 to 13"), std::string::npos);
+  const ProcessOutput none = run(
+      {"sweep", "sphere", "--vary", "rom_address_bits=3:5", "--rtl", "off", "--db", file("b.db")});
+  EXPECT_EQ(none.status, 2) << none.text;
+}
+
+TEST_F(Campaigns, AFailedCheckIsToldWithItsCommand) {
+  const ProcessOutput output = run(sweep("a.db", {"--vary", "budget=1,100"}));
+  EXPECT_EQ(output.status, 1) << output.text;
+  EXPECT_NE(output.text.find("12 failed"), std::string::npos) << output.text;
+  EXPECT_NE(output.text.find("12 × budget"), std::string::npos) << output.text;
+  EXPECT_NE(output.text.find("again  phongpipe verify sphere"), std::string::npos) << output.text;
+  // Failed runs are known, too; --retry-failed does them again.
+  const ProcessOutput again = run(sweep("a.db", {"--vary", "budget=1,100", "--retry-failed"}));
+  EXPECT_NE(again.text.find("0 of 12 runs passed, 12 failed; 12 were known"), std::string::npos)
+      << again.text;
+  const ProcessOutput first =
+      run(sweep("b.db", {"--vary", "budget=1", "--fail-fast", "--jobs", "1"}));
+  EXPECT_EQ(first.status, 1) << first.text;
+  EXPECT_LT(table("b.db").rows.size(), 12U);
+}
+
+TEST_F(Campaigns, ARunThatTakesTooLongOrTooMuchEndsAlone) {
+  const ProcessOutput late = run({"sweep", "pawn", "sphere", "--vary", "detail=cycle", "--vary",
+                                  "stall=90", "--rtl", "off", "--timeout", "1", "--set",
+                                  "scene.image.width=2048", "--set", "scene.image.height=2048",
+                                  "--set", "framebuffer.write_cycles=900", "--db", file("a.db")});
+  EXPECT_EQ(late.status, 1) << late.text;
+  EXPECT_NE(late.text.find("timed out"), std::string::npos) << late.text;
+}
+
+TEST_F(Campaigns, BadPlansAreRefusedAndLeaveNothing) {
+  const auto refuse = [&](const std::vector<std::string>& more, const std::string& message) {
+    std::vector<std::string> arguments = {"sweep", "sphere", "--db", file("x.db")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    expect_refused(arguments, message);
+  };
+  refuse({}, "nothing varies");
+  refuse({"--vary", "rom_adress_bits=6:13"}, "did you mean rom_address_bits?");
+  refuse({"--vary", "rom_address_bits=6:13:0"}, "a step of 0");
+  refuse({"--vary", "rom_address_bits=6:13", "--where", "rom_address_bits>20"}, "no point is left");
+  refuse({"--vary", "seed=0:99999", "--vary", "stall=0:99"}, "--sample");
+  refuse({"--vary", "rom_address_bits=6:13", "--set", "nosuch=3"}, "unknown key");
+  expect_refused({"sweep", "nosuch", "--vary", "stall=1,2", "--db", file("x.db")},
+                 "no such file or scene");
+  expect_refused({"export", file("x.db"), "--csv", "-"}, "no such file");
+}
+
+TEST_F(Campaigns, ASweepFileSaysTheSameAsTheCommandLine) {
+  ASSERT_EQ(run(sweep("a.db")).status, 0);
+  const std::string plan = write("plan.toml",
+                                 "scenes = [\"sphere\"]\n"
+                                 "[set]\n\"scene.image.width\" = 96\n\"scene.image.height\" = 96\n"
+                                 "[vary]\nrom_address_bits = \"6:9\"\n"
+                                 "diffuse_fraction_bits = [4, 8, 16]\n");
+  const ProcessOutput output = run({"sweep", plan, "--rtl", "off", "--db", file("a.db")});
+  EXPECT_NE(output.text.find("12 were known"), std::string::npos) << output.text;
+  const std::string wrong = write("wrong.toml", "scenes = \"sphere\"\n[vary]\nrom_bits = 3\n");
+  expect_refused({"sweep", wrong, "--db", file("b.db")}, "wrong.toml:3: rom_bits: unknown key");
+}
+
+TEST_F(Campaigns, RandomRegressionsOfOneSeedAreTheSame) {
+  const auto regress = [&](const std::string& name, const std::string& count) {
+    return run({"regress", "--random", "--count", count, "--seed", "7", "--rtl", "off", "--db",
+                file(name), "--junit", file("junit.xml")});
+  };
+  ASSERT_EQ(regress("a.db", "12").status, 0);
+  ASSERT_EQ(regress("b.db", "20").status, 0);
+  std::set<std::string> more;
+  const ResultTable results = table("b.db");
+  for (std::size_t row = 0; row < results.rows.size(); ++row) {
+    more.insert(results.text(row, "command"));
+  }
+  EXPECT_EQ(more.size(), 20U);
+  const ResultTable fewer = table("a.db");
+  for (std::size_t row = 0; row < fewer.rows.size(); ++row) {
+    EXPECT_EQ(more.count(fewer.text(row, "command")), 1U) << "the first 12 are the same";
+  }
+  const std::string junit = read_whole_file(file("junit.xml"));
+  EXPECT_NE(junit.find("tests=\"20\""), std::string::npos) << junit;
+  expect_refused({"regress", "--count", "5"}, "go with --random");
+  expect_refused({"regress", "sphere", "--random"}, "draws its scenes itself");
+}
+
+TEST_F(Campaigns, ExportsTheColumnsThatScriptsRelyOn) {
+  ASSERT_EQ(run(sweep("a.db")).status, 0);
+  const ProcessOutput csv = run_for_answer("export " + file("a.db") + " --csv -");
+  ASSERT_EQ(csv.status, 0);
+  const std::string header = csv.text.substr(0, csv.text.find('\n'));
+  std::set<std::string_view> columns;
+  for (const std::string_view column : split(header, ',')) columns.insert(column);
+  for (const char* column :
+       {"scene", "configuration_hash", "outcome", "verified_by", "max_lsb", "rms_lsb",
+        "datapath_ns_per_pixel", "frame_ns_per_pixel", "frame_cycles", "adders", "register_bits",
+        "rom_bits", "command", "datapath.rom_address_bits", "datapath.diffuse_fraction_bits"}) {
+    EXPECT_EQ(columns.count(column), 1U) << column;
+  }
+  ASSERT_EQ(run({"export", file("a.db"), "--json", file("a.json")}).status, 0);
+  EXPECT_EQ(json("a.json").size(), 12U);
+  EXPECT_EQ(json("a.json")[0]["outcome"], "passed");
+}
+
+}  // namespace
+}  // namespace phongpipe
