@@ -195,8 +195,7 @@ class Campaign {
 
   bool is_enough(const KnownRun& known, const VerificationOptions& wanted) const {
     if (known.outcome == Outcome::passed) {
-      return known.verified_by >=
-             (wanted.rtl == RtlToVerify::off ? VerifiedBy::model : VerifiedBy::native);
+      return known.verified_by >= verified_by(wanted.rtl);
     }
     return known.outcome == Outcome::refused || !options_.retry_failed;
   }

@@ -26,4 +26,15 @@ std::vector<std::size_t> pareto_front(const std::vector<std::optional<ParetoPoin
   return front;
 }
 
+std::vector<std::size_t> front_of(const ResultTable& table) {
+  std::vector<std::optional<ParetoPoint>> points(table.rows.size());
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const auto time = table.number(row, "frame_ns_per_pixel"), error = table.number(row, "max_lsb");
+    if (table.text(row, "outcome") == "passed" && time && error) {
+      points[row] = ParetoPoint{*time, *error};
+    }
+  }
+  return pareto_front(points);
+}
+
 }  // namespace phongpipe

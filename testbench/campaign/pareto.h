@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "testbench/campaign/store.h"
+
 namespace phongpipe {
 
 struct ParetoPoint {
@@ -15,5 +17,8 @@ struct ParetoPoint {
 // and smaller in one. Equal points stand on the front together. Points without a value are never on
 // it. Sorted by a, then by index.
 std::vector<std::size_t> pareto_front(const std::vector<std::optional<ParetoPoint>>& points);
+
+// The rows of a table that passed and stand on the front of frame_ns_per_pixel against max_lsb.
+std::vector<std::size_t> front_of(const ResultTable& table);
 
 }  // namespace phongpipe

@@ -42,11 +42,12 @@ Enum from_name(const std::string& text) {
   }
   throw InputError(fmt::format("unknown word {}", printable(text)));
 }
+constexpr int kOutcomes = 5, kStrengths = 4;
 Outcome outcome_from(const std::string& text) {
-  return from_name<Outcome, 5>(text);
+  return from_name<Outcome, kOutcomes>(text);
 }
 VerifiedBy verified_by_from(const std::string& text) {
-  return from_name<VerifiedBy, 3>(text);
+  return from_name<VerifiedBy, kStrengths>(text);
 }
 
 // Runs `work`; errors of SQLite become ours, and name the file.
@@ -348,7 +349,7 @@ void Store::merge(const Store& other) {
       }
       const std::string columns = fmt::format("{}", fmt::join(names, ","));
       std::string rank;
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i < kStrengths; ++i) {
         rank += fmt::format(" WHEN '{}' THEN {}", name(static_cast<VerifiedBy>(i)), i);
       }
       database_->exec(fmt::format(

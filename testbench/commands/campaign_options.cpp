@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <set>
 #include <vector>
 
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
+#include "testbench/campaign/pareto.h"
 #include "testbench/cases/random_run.h"
 #include "testbench/commands/options.h"
 #include "testbench/reports/campaign_report.h"
@@ -112,6 +114,18 @@ class Session {
 
   bool stopped() const { return total_.interrupted; }
 
+  // Of `runs`, those whose results stand on the Pareto front.
+  std::vector<CampaignRun> runs_of_front(const std::vector<CampaignRun>& runs) const {
+    const ResultTable table = store_.table();
+    std::set<std::string> commands;
+    for (const std::size_t row : front_of(table)) commands.insert(table.text(row, "command"));
+    std::vector<CampaignRun> result;
+    for (const CampaignRun& run : runs) {
+      if (commands.count(command_of(run.request)) != 0) result.push_back(run);
+    }
+    return result;
+  }
+
   // The exit status.
   int finish() {
     display_.clear();
@@ -144,9 +158,14 @@ void CampaignCommand::add_to(CLI::App& command) {
       ->check(CLI::Range(0, 1024).description(""));
   command.add_option("--shard", shard, "Do part I of N only, for several machines; see merge")
       ->type_name("I/N");
-  add_choice<RtlToVerify>(command, "--rtl", rtl,
-                          {{"native", RtlToVerify::native}, {"off", RtlToVerify::off}}, "native",
-                          "Compare with RTL built for each configuration, or with SystemC only");
+  add_choice<RtlToVerify>(
+      command, "--rtl", rtl,
+      {{"native", RtlToVerify::native},
+       {"superset", RtlToVerify::superset},
+       {"off", RtlToVerify::off}},
+      "native",
+      "Compare with RTL built for each configuration; with one RTL in which all "
+      "of them run, and the Pareto front with its own; or with SystemC only");
   command
       .add_option("--timeout", options.limits.seconds, "Seconds after which a run has timed out")
       ->capture_default_str()
@@ -170,7 +189,12 @@ int CampaignCommand::run(const Plan& plan) {
   for (const Axis& axis : plan.axes) keys.push_back(axis.key);
   for (const Tie& tie : plan.ties) keys.push_back(tie.key);
   Session session(*this, keys);
-  session.add(std::move(runs), [] { return false; });
+  const auto never_late = [] { return false; };
+  session.add(runs, never_late);
+  if (rtl == RtlToVerify::superset && !session.stopped()) {
+    rtl = RtlToVerify::native;
+    session.add(session.runs_of_front(runs), never_late);
+  }
   return session.finish();
 }
 

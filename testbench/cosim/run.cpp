@@ -193,8 +193,19 @@ std::string_view name(Outcome outcome) {
 }
 
 std::string_view name(VerifiedBy verified_by) {
-  static constexpr std::string_view kNames[] = {"nothing", "model", "native"};
+  static constexpr std::string_view kNames[] = {"nothing", "model", "superset", "native"};
   return kNames[static_cast<std::size_t>(verified_by)];
+}
+
+VerifiedBy verified_by(RtlToVerify rtl) {
+  switch (rtl) {
+    case RtlToVerify::native:
+      return VerifiedBy::native;
+    case RtlToVerify::superset:
+      return VerifiedBy::superset;
+    default:
+      return VerifiedBy::model;
+  }
 }
 
 RunResult summary_of(const VerificationResult& result) {
@@ -207,7 +218,7 @@ RunResult summary_of(const VerificationResult& result) {
     summary.message = std::move(failure.message);
     summary.bucket = std::move(failure.bucket);
   }
-  summary.verified_by = result.rtl ? VerifiedBy::native : VerifiedBy::model;
+  summary.verified_by = verified_by(result.options.rtl);
   summary.configuration_hash = configuration_hash(result.hardware);
   for (const Metric& metric : metrics()) summary.metrics.push_back(metric.value(result));
   return summary;

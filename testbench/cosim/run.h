@@ -56,8 +56,9 @@ enum class Outcome { passed, failed, refused, crashed, timed_out };
 std::string_view name(Outcome outcome);
 
 // How pixels were verified, from the weakest to the strongest.
-enum class VerifiedBy { nothing, model, native };
+enum class VerifiedBy { nothing, model, superset, native };
 std::string_view name(VerifiedBy verified_by);
+VerifiedBy verified_by(RtlToVerify rtl);
 
 // Bucket of runs that agree, but have values that do not fit their registers.
 constexpr std::string_view kOverflow = "overflow";

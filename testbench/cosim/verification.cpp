@@ -24,6 +24,9 @@ class Implementation {
                  const SimulationOptions& options, const RtlLibrary* library)
       : frame_(frame), pipeline_(pipeline), options_(options), library_(library) {}
 
+  // For RTL that is wider than the configuration.
+  void align(const RtlAlignment& alignment) { alignment_ = alignment; }
+
   // Starts the simulation in a child process, which hashes what comes. Call it once.
   void start() {
     child_.emplace([this] {
@@ -80,7 +83,7 @@ class Implementation {
   SimulationResult simulate_with(SimulationOptions& options) const {
     std::unique_ptr<RtlDatapath> datapath;
     if (library_ != nullptr) {
-      datapath = std::make_unique<RtlDatapath>(*library_, frame_.cue_color);
+      datapath = std::make_unique<RtlDatapath>(*library_, frame_.cue_color, alignment_);
       options.datapath = datapath.get();
     }
     return simulate(frame_, pipeline_, options);
@@ -90,6 +93,7 @@ class Implementation {
   const PipelineConfiguration& pipeline_;
   SimulationOptions options_;
   const RtlLibrary* library_;
+  RtlAlignment alignment_;
   std::optional<Child> child_;
 };
 
@@ -130,6 +134,11 @@ void describe_frame(const PreparedFrame& frame, VerificationResult& result) {
 }
 
 }  // namespace
+
+DatapathConfiguration rtl_configuration(const DatapathConfiguration& configuration,
+                                        RtlToVerify rtl) {
+  return rtl == RtlToVerify::superset ? superset_of(configuration) : configuration;
+}
 
 double VerificationResult::datapath_ns_per_pixel() const {
   return clock_ns * static_cast<double>(rtl->counts.datapath_busy_cycles) /
@@ -172,7 +181,7 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
     RtlBuildOptions build;
     build.sources = options.rtl_sources;
     build.progress = [&](const std::string& what) { show("building the RTL for " + what); };
-    library.emplace(frame.setup.configuration, build);
+    library.emplace(rtl_configuration(frame.setup.configuration, options.rtl), build);
   }
 
   show(library ? "simulating SystemC and RTL" : "simulating SystemC");
@@ -182,7 +191,12 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   simulation.stall_seed = options.seed;
   Implementation systemc(frame.setup, hardware.pipeline, simulation, nullptr);
   std::optional<Implementation> rtl;
-  if (library) rtl.emplace(frame.setup, hardware.pipeline, simulation, &*library);
+  if (library) {
+    rtl.emplace(frame.setup, hardware.pipeline, simulation, &*library);
+    if (options.rtl == RtlToVerify::superset) {
+      rtl->align(superset_alignment(frame.setup.configuration));
+    }
+  }
   if (!options.one_core) {
     if (rtl) rtl->start();
     systemc.start();

@@ -21,8 +21,13 @@ namespace phongpipe {
 // see what leaving effects out saves and that it changes no pixel.
 enum class EffectsToVerify { scene, all, both };
 
-// The RTL that the model is compared with: built with the parameters of the configuration; or none.
-enum class RtlToVerify { native, off };
+// The RTL that the model is compared with: built with the parameters of the configuration; with the
+// largest parameters, in which every configuration runs, see superset.h; or none.
+enum class RtlToVerify { native, superset, off };
+
+// The parameters with which that RTL is built.
+DatapathConfiguration rtl_configuration(const DatapathConfiguration& configuration,
+                                        RtlToVerify rtl);
 
 struct VerificationOptions {
   double budget_ns = 100;  // per shaded pixel, for the whole frame

@@ -41,17 +41,11 @@ std::string duration(double seconds) {
 // The points of the front, a line each.
 void add_front(std::string& text, const Store& store) {
   const ResultTable table = store.table();
-  std::vector<std::optional<ParetoPoint>> points;
   std::map<std::string, std::set<std::string>> values;  // of the keys
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    points.emplace_back();
     for (const std::string& key : store.keys()) values[key].insert(table.text(row, key));
-    const auto time = table.number(row, "frame_ns_per_pixel"), error = table.number(row, "max_lsb");
-    if (table.text(row, "outcome") == "passed" && time && error) {
-      points.back() = ParetoPoint{*time, *error};
-    }
   }
-  const std::vector<std::size_t> front = pareto_front(points);
+  const std::vector<std::size_t> front = front_of(table);
   if (front.empty()) return;
   text += fmt::format("  front    {} of {} points have the least error for their time\n",
                       front.size(), count_text(table.rows.size()));
@@ -60,7 +54,8 @@ void add_front(std::string& text, const Store& store) {
   std::string before;
   for (const std::size_t row : front) {
     const std::string measures =
-        fmt::format("{:.2f} ns a pixel, at most {:.2f} LSB", points[row]->a, points[row]->b);
+        fmt::format("{:.2f} ns a pixel, at most {:.2f} LSB",
+                    *table.number(row, "frame_ns_per_pixel"), *table.number(row, "max_lsb"));
     if (measures == before) continue;  // as good as the one before
     before = measures;
     if (++lines > kMostLines) {

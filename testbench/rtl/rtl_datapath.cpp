@@ -5,24 +5,29 @@
 namespace phongpipe {
 namespace {
 
-RtlSeries to_rtl(const SeriesStart& start) {
-  return {start.v, start.d1, start.d2};
+// Bits that leave the word at the left are those that its register does not have.
+std::int64_t shifted(std::int64_t value, int bits) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(value) << bits);
+}
+
+RtlSeries to_rtl(const SeriesStart& start, int shift) {
+  return {shifted(start.v, shift), shifted(start.d1, shift), shifted(start.d2, shift)};
 }
 
 }  // namespace
 
-RtlSpan to_rtl(const Span& span) {
+RtlSpan to_rtl(const Span& span, const RtlAlignment& alignment) {
   RtlSpan rtl = {};
   rtl.x = span.row.x;
   rtl.y = span.row.y;
   rtl.length = span.row.length;
   for (std::size_t c = 0; c < 3; ++c) {
-    rtl.diffuse[c] = to_rtl(span.diffuse[c]);
-    rtl.level[c] = span.level[c];
+    rtl.diffuse[c] = to_rtl(span.diffuse[c], alignment.diffuse);
+    rtl.level[c] = shifted(span.level[c], alignment.diffuse);
   }
-  rtl.specular = to_rtl(span.specular);
-  rtl.gate = to_rtl(span.gate);
-  rtl.cue = to_rtl(span.cue);
+  rtl.specular = to_rtl(span.specular, alignment.specular);
+  rtl.gate = to_rtl(span.gate, alignment.diffuse);
+  rtl.cue = to_rtl(span.cue, 0);
   rtl.first_pass = span.first_pass;
   rtl.step_diffuse = span.step_diffuse;
   rtl.step_specular = span.step_specular;
@@ -30,8 +35,9 @@ RtlSpan to_rtl(const Span& span) {
   return rtl;
 }
 
-RtlDatapath::RtlDatapath(const RtlLibrary& library, const OutputColor& cue_color)
-    : interface_(&library.interface()), rtl_(interface_->create()) {
+RtlDatapath::RtlDatapath(const RtlLibrary& library, const OutputColor& cue_color,
+                         const RtlAlignment& alignment)
+    : interface_(&library.interface()), rtl_(interface_->create()), alignment_(alignment) {
   std::copy(cue_color.begin(), cue_color.end(), ports_.cue_color);
 }
 
@@ -49,18 +55,12 @@ void RtlDatapath::reset() {
 }
 
 DatapathOutputs RtlDatapath::clock(const DatapathInputs& inputs) {
-  if (inputs.span != nullptr && !presenting_) presented_ = to_rtl(*inputs.span);
+  if (inputs.span != nullptr && !presenting_) presented_ = to_rtl(*inputs.span, alignment_);
   presenting_ = inputs.span != nullptr;
   ports_.span = presenting_ ? &presented_ : nullptr;
   ports_.pixel_ready = inputs.pixel_ready;
   ports_.rom_write = inputs.table != nullptr;
-  if (inputs.table != nullptr) {
-    ports_.rom_address = static_cast<std::uint16_t>(inputs.rom_address);
-    for (std::size_t c = 0; c < inputs.table->roms.size(); ++c) {
-      const auto address = static_cast<std::size_t>(inputs.rom_address);
-      ports_.rom_data[c] = static_cast<std::uint16_t>(inputs.table->roms[c].words()[address]);
-    }
-  }
+  if (inputs.table != nullptr) write_word(*inputs.table, inputs.rom_address);
   interface_->clock(rtl_, &ports_);
   if (ports_.span_ready) presenting_ = false;
   DatapathOutputs outputs;
@@ -68,6 +68,22 @@ DatapathOutputs RtlDatapath::clock(const DatapathInputs& inputs) {
   outputs.pixel_valid = ports_.pixel_valid != 0;
   outputs.pixel = {ports_.pixel_x, ports_.pixel_y, ports_.pixel_color};
   return outputs;
+}
+
+// To all addresses that begin with `address`; the last of them is left for the caller's clock.
+void RtlDatapath::write_word(const HighlightTable& table, int address) {
+  for (std::size_t c = 0; c < table.roms.size(); ++c) {
+    const std::uint32_t word = table.roms[c].words()[static_cast<std::size_t>(address)];
+    ports_.rom_data[c] = static_cast<std::uint16_t>(word);
+  }
+  RtlPorts ports = ports_;  // no pixel is in flight, and no span may enter
+  ports.span = nullptr;
+  const int copies = 1 << alignment_.address;
+  for (int copy = 0; copy + 1 < copies; ++copy) {
+    ports.rom_address = static_cast<std::uint16_t>(address * copies + copy);
+    interface_->clock(rtl_, &ports);
+  }
+  ports_.rom_address = static_cast<std::uint16_t>((address + 1) * copies - 1);
 }
 
 void RtlDatapath::load_table(const HighlightTable& table) {

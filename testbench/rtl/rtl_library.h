@@ -10,6 +10,7 @@
 
 #include "sim/clocked_datapath.h"
 #include "testbench/rtl/rtl_abi.h"
+#include "testbench/rtl/superset.h"
 
 namespace phongpipe {
 
@@ -42,12 +43,14 @@ class RtlLibrary {
   const RtlInterface* interface_ = nullptr;
 };
 
-RtlSpan to_rtl(const Span& span);
+RtlSpan to_rtl(const Span& span, const RtlAlignment& alignment = {});
 
-// One instance of the RTL, behind the ports that the SystemC pipeline drives.
+// One instance of the RTL, behind the ports that the SystemC pipeline drives. In RTL of a superset,
+// a word of the table takes several clocks of the RTL in one clock() of ours.
 class RtlDatapath : public ClockedDatapath {
  public:
-  explicit RtlDatapath(const RtlLibrary& library, const OutputColor& cue_color = {});
+  explicit RtlDatapath(const RtlLibrary& library, const OutputColor& cue_color = {},
+                       const RtlAlignment& alignment = {});
   ~RtlDatapath() override;
   RtlDatapath(const RtlDatapath&) = delete;
   RtlDatapath& operator=(const RtlDatapath&) = delete;
@@ -61,8 +64,11 @@ class RtlDatapath : public ClockedDatapath {
   void* rtl() const { return rtl_; }
 
  private:
+  void write_word(const HighlightTable& table, int address);
+
   const RtlInterface* interface_;
   void* rtl_;
+  RtlAlignment alignment_;
   RtlPorts ports_ = {};
   RtlSpan presented_ = {};
   bool presenting_ = false;

@@ -1,0 +1,22 @@
+#include "testbench/rtl/superset.h"
+
+namespace phongpipe {
+
+DatapathConfiguration superset_of(const DatapathConfiguration& configuration) {
+  DatapathConfiguration wide = configuration;
+  for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
+    // Words of the table end at the output's LSB from above and cannot be shifted.
+    if (setting.rtl_parameter.empty() || setting.rtl_parameter == "ROM_DATA_BITS") continue;
+    setting.put(wide, setting.high);
+  }
+  return wide;
+}
+
+RtlAlignment superset_alignment(const DatapathConfiguration& configuration) {
+  const DatapathConfiguration wide = superset_of(configuration);
+  return {wide.diffuse_width() - configuration.diffuse_width(),
+          wide.specular_width() - configuration.specular_width(),
+          wide.rom_address_bits - configuration.rom_address_bits};
+}
+
+}  // namespace phongpipe
