@@ -4,12 +4,22 @@
 
 namespace phongpipe::by_span {
 
+// Clocks without a pixel and without a span that are simulated before time jumps to the next span.
+// More than a datapath holds, so that one that emits what nobody asked for is caught.
+constexpr Cycle kIdleClocks = 16;
+
 void ClockedPixelDatapath::run() {
-  Cycle last_progress = 0;
+  Cycle last_progress = 0, idle_clocks = 0;
   for (Cycle cycle = 0;; ++cycle) {
     const bool more = spans_.wait_for_item();
     if (!more && driver_.pixels_in_flight() <= 0) break;
     const bool visible = more && spans_.front_seen_from() <= cycle;
+    idle_clocks = visible || driver_.pixels_in_flight() > 0 ? 0 : idle_clocks + 1;
+    if (more && idle_clocks > kIdleClocks) {
+      last_progress = spans_.front_seen_from();
+      cycle = last_progress - 1;
+      continue;
+    }
     const DatapathDriver::Outcome outcome =
         driver_.clock(visible ? &spans_.front() : nullptr, timing_.slot_free_from() <= cycle);
     if (outcome.span_taken) {

@@ -50,8 +50,10 @@ void build_rtl_of(const std::vector<ResolvedRun>& runs, const PreparedScene& sce
     if (run.options.rtl == RtlToVerify::off) continue;
     const Effects effects =
         run.options.effects == EffectsToVerify::all ? Effects::all : Effects::derived;
-    configurations.push_back({run.hardware.formats, derive_blocks(run.hardware.formats, scene.scene,
-                                                                  scene.geometry, effects)});
+    const DatapathConfiguration configuration{
+        run.hardware.formats,
+        derive_blocks(run.hardware.formats, scene.scene, scene.geometry, effects)};
+    configurations.push_back(rtl_configuration(configuration, run.options.rtl));
   }
   if (configurations.empty()) return;
   try {

@@ -95,11 +95,12 @@ struct PendingRun {
 
 class Campaign {
  public:
-  Campaign(const std::vector<CampaignRun>& runs, const CampaignOptions& options, Store& store,
-           const ShowCampaign& show, const std::function<bool()>& should_stop)
+  Campaign(const std::vector<CampaignRun>& runs, const CampaignOptions& options,
+           const std::function<Store&()>& open_store, const ShowCampaign& show,
+           const std::function<bool()>& should_stop)
       : runs_(runs),
         options_(options),
-        store_(store),
+        open_store_(open_store),
         show_(show),
         should_stop_(should_stop),
         stored_(runs.size()) {
@@ -108,7 +109,9 @@ class Campaign {
   }
 
   CampaignResult run() {
-    resolve();
+    std::vector<PendingRun> legal = resolve();
+    store_ = &open_store_();
+    enqueue(std::move(legal));
     start_ = Clock::now();
     while (!workers_.empty() || (!queue_.empty() && !stopping_)) {
       while (workers_.size() < jobs_ && !queue_.empty() && !stopping_) start_worker();
@@ -131,18 +134,14 @@ class Campaign {
     Clock::time_point since;  // when the last message came
   };
 
-  // Sorts out what is stored, what is refused at once, and what is to be done.
-  void resolve() {
-    const auto known = store_.known();
+  // Loads scenes and hardware. What is not legal is refused.
+  std::vector<PendingRun> resolve() {
+    std::vector<PendingRun> legal;
     std::set<std::string> seen;
-    std::vector<StoredRun> refusals;
-    std::vector<PendingRun> pending;
-    std::uint64_t refused_before = 0;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       const RunRequest& request = runs_[i].request;
       StoredRun& stored = stored_[i];
       PendingRun run;
-      std::string reason;
       try {
         run.scene = &loader_.scene(request);
         run.resolved = {i, loader_.hardware(request), request.options};
@@ -151,7 +150,7 @@ class Campaign {
         stored.text = canonical_text(run.scene->hash, run.resolved.hardware, request.options,
                                      options_.limits);
       } catch (const InputError& error) {
-        reason = error.what();
+        stored.result = refused(error.what());
         stored.text = command_of(request) + "\n";
       }
       stored.identity = identity_of(stored.text);
@@ -161,29 +160,40 @@ class Campaign {
       stored.hardware = request.hardware;
       stored.values = runs_[i].values;
       ++result_.progress.total;
-      const auto found = known.find(stored.identity);
-      if (found != known.end() && is_enough(found->second, request.options)) {
-        ++result_.progress.known;
-        refused_before += found->second.outcome == Outcome::refused ? 1 : 0;
-      } else if (!reason.empty()) {
-        stored.result = refused(reason);
-        refusals.push_back(stored);
-        ++result_.progress.refused;
+      if (stored.result.outcome == Outcome::refused) {
+        refused_.push_back(i);
       } else {
-        pending.push_back(std::move(run));
+        legal.push_back(std::move(run));
       }
     }
-    if (pending.empty() && !refusals.empty() &&
-        result_.progress.refused + refused_before == result_.progress.total) {
-      throw InputError(refusals.front().result.message);
+    if (legal.empty() && !refused_.empty()) {
+      throw InputError(stored_[refused_.front()].result.message);
     }
-    store_.put(refusals);
+    return legal;
+  }
+
+  // Leaves out what is stored.
+  void enqueue(std::vector<PendingRun> legal) {
+    const auto known = store_->known();
+    const auto is_known = [&](std::size_t index) {
+      const auto found = known.find(stored_[index].identity);
+      const bool enough =
+          found != known.end() && is_enough(found->second, runs_[index].request.options);
+      result_.progress.known += enough ? 1 : 0;
+      return enough;
+    };
+    for (const std::size_t index : refused_) {
+      if (!is_known(index)) record(index, stored_[index].result, 0);
+    }
     // Runs that share a scene stand together, and of these the runs that share the RTL, so that one
     // batch builds it.
-    std::stable_sort(pending.begin(), pending.end(), [](const auto& a, const auto& b) {
+    std::stable_sort(legal.begin(), legal.end(), [](const auto& a, const auto& b) {
       return std::tie(a.scene->order, a.rtl) < std::tie(b.scene->order, b.rtl);
     });
-    for (PendingRun& run : pending) queue_.push_back(std::move(run));
+    for (PendingRun& run : legal) {
+      if (!is_known(run.resolved.index)) queue_.push_back(std::move(run));
+    }
+    flush();
   }
 
   // A shard holds every run of some identities, whatever else the plan contains.
@@ -344,7 +354,7 @@ class Campaign {
   }
 
   void flush() {
-    store_.put(finished_);
+    store_->put(finished_);
     finished_.clear();
   }
 
@@ -360,12 +370,14 @@ class Campaign {
 
   const std::vector<CampaignRun>& runs_;
   const CampaignOptions& options_;
-  Store& store_;
+  const std::function<Store&()>& open_store_;
+  Store* store_ = nullptr;
   const ShowCampaign& show_;
   const std::function<bool()>& should_stop_;
   std::size_t jobs_ = 1;
   Loader loader_;
-  std::vector<StoredRun> stored_;  // by index of the run; emptied once it is recorded
+  std::vector<StoredRun> stored_;     // by index of the run; emptied once it is recorded
+  std::vector<std::size_t> refused_;  // at once, by index of the run
   std::deque<PendingRun> queue_;
   std::size_t one_by_one_ = 0;  // runs at the front of the queue that are batches of one
   std::vector<ActiveWorker> workers_;
@@ -394,9 +406,9 @@ CampaignProgress CampaignProgress::operator+(const CampaignProgress& later) cons
 }
 
 CampaignResult run_campaign(const std::vector<CampaignRun>& runs, const CampaignOptions& options,
-                            Store& store, const ShowCampaign& show,
+                            const std::function<Store&()>& open_store, const ShowCampaign& show,
                             const std::function<bool()>& should_stop) {
-  return Campaign(runs, options, store, show, should_stop).run();
+  return Campaign(runs, options, open_store, show, should_stop).run();
 }
 
 }  // namespace phongpipe

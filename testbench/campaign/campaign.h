@@ -53,11 +53,11 @@ struct CampaignResult {
 
 using ShowCampaign = std::function<void(const CampaignProgress&)>;
 
-// Does all runs that `store` does not have. `should_stop` is asked often; once it is true, the runs
-// in flight are finished and no others are begun. Throws InputError if every run of the campaign is
-// refused.
+// Does all runs that the store does not have. `open_store` is called once, when it is known that
+// some run is legal; otherwise InputError is thrown. `should_stop` is asked often; once it is true,
+// the runs in flight are finished and no others are begun.
 CampaignResult run_campaign(const std::vector<CampaignRun>& runs, const CampaignOptions& options,
-                            Store& store, const ShowCampaign& show,
+                            const std::function<Store&()>& open_store, const ShowCampaign& show,
                             const std::function<bool()>& should_stop);
 
 }  // namespace phongpipe

@@ -159,8 +159,11 @@ class Expression {
     }
   }
   void define(const std::string& word) {
-    if (words_.count(word) == 0) {
+    if (words_.count(word) > 0 || parser_.GetVar().count(word) > 0) return;
+    try {
       parser_.DefineConst(word, number_of(word));
+    } catch (const mu::Parser::exception_type&) {
+      // A word that is no name, such as six-point, cannot be part of an expression.
     }
   }
   // A number as it is, a word as a number of its own.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <memory>
 #include <set>
 #include <vector>
 
@@ -92,11 +93,9 @@ void parse_shard(const std::string& text, CampaignOptions& options) {
 // The store, the display and the handler of Ctrl-C while runs are done, in one go or in rounds.
 class Session {
  public:
-  Session(CampaignCommand& command, const std::vector<std::string>& keys)
-      : command_(command), store_(command.database, Store::Access::write, command.kind) {
+  Session(CampaignCommand& command, std::vector<std::string> keys)
+      : command_(command), keys_(std::move(keys)) {
     parse_shard(command.shard, command.options);
-    store_.add_keys(keys);
-    if (!command.shard.empty()) store_.add_shard(command.shard);
   }
 
   // `late`: whether the time for new runs is over.
@@ -104,7 +103,7 @@ class Session {
     for (CampaignRun& run : runs) run.request.options.rtl = command_.rtl;
     const CampaignProgress before = total_.progress;
     CampaignResult result = run_campaign(
-        runs, command_.options, store_,
+        runs, command_.options, [this]() -> Store& { return store(); },
         [&](const CampaignProgress& progress) { display_(before + progress); },
         [&] { return interrupted != 0 || late(); });
     total_.progress = before + result.progress;
@@ -116,7 +115,7 @@ class Session {
 
   // Of `runs`, those whose results stand on the Pareto front.
   std::vector<CampaignRun> runs_of_front(const std::vector<CampaignRun>& runs) const {
-    const ResultTable table = store_.table();
+    const ResultTable table = store_->table();
     std::set<std::string> commands;
     for (const std::size_t row : front_of(table)) commands.insert(table.text(row, "command"));
     std::vector<CampaignRun> result;
@@ -129,16 +128,26 @@ class Session {
   // The exit status.
   int finish() {
     display_.clear();
-    print_or_throw(campaign_text(total_, store_, command_.database, color_wanted()));
-    if (command_.finish) command_.finish(store_);
+    print_or_throw(campaign_text(total_, *store_, command_.database, color_wanted()));
+    if (command_.finish) command_.finish(*store_);
     if (interrupted != 0) return kInterrupted;
     const CampaignProgress& p = total_.progress;
     return p.crashed > 0 ? kToolFailed : p.failed + p.timed_out > 0 ? kCheckFailed : 0;
   }
 
  private:
+  Store& store() {
+    if (!store_) {
+      store_ = std::make_unique<Store>(command_.database, Store::Access::write, command_.kind);
+      store_->add_keys(keys_);
+      if (!command_.shard.empty()) store_->add_shard(command_.shard);
+    }
+    return *store_;
+  }
+
   CampaignCommand& command_;
-  Store store_;
+  std::vector<std::string> keys_;
+  std::unique_ptr<Store> store_;  // opened once some run is known to be legal
   CampaignDisplay display_;
   InterruptHandler handler_;
   CampaignResult total_;
