@@ -57,7 +57,9 @@ void build_rtl_of(const std::vector<ResolvedRun>& runs, const PreparedScene& sce
   }
   if (configurations.empty()) return;
   try {
-    build_missing_rtl(configurations, {});
+    RtlBuildOptions options;
+    options.quick = true;
+    build_missing_rtl(configurations, options);
   } catch (const std::exception&) {
   }
 }

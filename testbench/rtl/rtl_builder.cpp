@@ -232,7 +232,8 @@ std::string rtl_parameters_text(const DatapathConfiguration& configuration) {
 // The tools run in the scratch folder and get only names relative to it, or of the installation:
 // Verilator is a Perl script that mangles others. All that it generates is compiled as one file,
 // for most of the time of a file goes into headers.
-void build_rtl(const std::vector<RtlTarget>& targets, const fs::path& sources_folder) try {
+void build_rtl(const std::vector<RtlTarget>& targets, const fs::path& sources_folder,
+               bool quick) try {
   const fs::path destination = fs::absolute(targets.front().file).parent_path();
   sweep_abandoned(destination);
   const ScratchFolder scratch(destination);
@@ -264,8 +265,8 @@ void build_rtl(const std::vector<RtlTarget>& targets, const fs::path& sources_fo
   write_text(folder / "unity.cpp", unity);
   const std::string built = "pixel_datapath.so";
   run_or_throw(
-      {"g++", "-std=c++17", "-O3", "-fPIC", "-shared", "-fvisibility=hidden", "-I" + include,
-       "-I" + include + "/vltstd", "-I.", "-I" + installation().rtl_shim.string(),
+      {"g++", "-std=c++17", quick ? "-O1" : "-O3", "-fPIC", "-shared", "-fvisibility=hidden",
+       "-I" + include, "-I" + include + "/vltstd", "-I.", "-I" + installation().rtl_shim.string(),
        "-I" + installation().include.string(), "unity.cpp",
        (installation().libraries / "libphongpipe_verilated.a").string(), "-pthread", "-o", built},
       folder, sources);

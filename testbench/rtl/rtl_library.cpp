@@ -86,7 +86,7 @@ void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
     options.progress(missing.size() == 1 ? rtl_parameters_text(missing.front().configuration)
                                          : fmt::format("{} configurations", missing.size()));
   }
-  build_rtl(missing, files.sources());
+  build_rtl(missing, files.sources(), options.quick);
 }
 
 RtlLibrary::RtlLibrary(const DatapathConfiguration& configuration, const RtlBuildOptions& options) {

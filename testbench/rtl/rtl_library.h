@@ -17,6 +17,7 @@ namespace phongpipe {
 struct RtlBuildOptions {
   std::filesystem::path sources;      // folder of the RTL; empty: the installed one
   std::filesystem::path destination;  // where a new library is kept; empty: the user's cache
+  bool quick = false;                 // see build_rtl(); for libraries that run for a moment
   std::function<void(const std::string&)> progress;  // called with what is being built, if anything
 };
 
