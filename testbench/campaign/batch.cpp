@@ -29,9 +29,9 @@ RunResult crashed(const std::string& message, const std::string& bucket) {
   return result;
 }
 
-RunResult result_of(const ResolvedRun& run, const std::shared_ptr<const PreparedScene>& scene) {
+RunResult result_of(const ResolvedRun& run) {
   try {
-    return summary_of(verify(scene, run.hardware, run.options));
+    return summary_of(verify(run.scene, run.hardware, run.options));
   } catch (const InputError& error) {
     return refused(error.what());
   } catch (const std::bad_alloc&) {
@@ -44,7 +44,7 @@ RunResult result_of(const ResolvedRun& run, const std::shared_ptr<const Prepared
 }
 
 // Builds the RTL of all runs at once. A failure is left to the runs, which tell it.
-void build_rtl_of(const std::vector<ResolvedRun>& runs, const PreparedScene& scene) {
+void build_rtl_of(const std::vector<ResolvedRun>& runs) {
   std::vector<DatapathConfiguration> configurations;
   for (const ResolvedRun& run : runs) {
     if (run.options.rtl == RtlToVerify::off) continue;
@@ -52,7 +52,7 @@ void build_rtl_of(const std::vector<ResolvedRun>& runs, const PreparedScene& sce
         run.options.effects == EffectsToVerify::all ? Effects::all : Effects::derived;
     const DatapathConfiguration configuration{
         run.hardware.formats,
-        derive_blocks(run.hardware.formats, scene.scene, scene.geometry, effects)};
+        derive_blocks(run.hardware.formats, run.scene->scene, run.scene->geometry, effects)};
     configurations.push_back(rtl_configuration(configuration, run.options.rtl));
   }
   if (configurations.empty()) return;
@@ -66,19 +66,17 @@ void build_rtl_of(const std::vector<ResolvedRun>& runs, const PreparedScene& sce
 
 }  // namespace
 
-std::unique_ptr<Worker> start_batch(std::vector<ResolvedRun> runs,
-                                    std::shared_ptr<const PreparedScene> scene, int memory_mib,
+std::unique_ptr<Worker> start_batch(const std::vector<ResolvedRun>& runs, int memory_mib,
                                     const volatile bool* stop) {
-  return std::make_unique<Worker>(
-      [runs = std::move(runs), scene = std::move(scene), memory_mib, stop](const auto& send) {
-        limit_memory(memory_mib);
-        build_rtl_of(runs, *scene);
-        for (const ResolvedRun& run : runs) {
-          if (*stop) return;
-          send(to_bytes(BatchMessage{false, run.index, {}}));
-          send(to_bytes(BatchMessage{true, run.index, result_of(run, scene)}));
-        }
-      });
+  return std::make_unique<Worker>([&runs, memory_mib, stop](const Worker::Send& send) {
+    limit_memory(memory_mib);
+    build_rtl_of(runs);
+    for (const ResolvedRun& run : runs) {
+      if (*stop) return;
+      send(to_bytes(BatchMessage{false, run.index, {}}));
+      send(to_bytes(BatchMessage{true, run.index, result_of(run)}));
+    }
+  });
 }
 
 BatchMessage to_batch_message(const std::string& bytes) {

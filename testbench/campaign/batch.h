@@ -1,4 +1,4 @@
-// A batch: runs of one scene that one forked worker does one after the other.
+// A batch: runs that one forked worker does one after the other.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +17,7 @@ struct ResolvedRun {
   std::size_t index = 0;  // in the campaign
   Hardware hardware;
   VerificationOptions options;
+  std::shared_ptr<const PreparedScene> scene;
 };
 
 // Sent when a run begins, and when it is finished.
@@ -34,8 +35,7 @@ struct BatchMessage {
 
 // Starts a worker that builds the RTL of the batch and does its runs. It stops before its next run
 // once `*stop` is set; `stop` is in memory that parent and worker share.
-std::unique_ptr<Worker> start_batch(std::vector<ResolvedRun> runs,
-                                    std::shared_ptr<const PreparedScene> scene, int memory_mib,
+std::unique_ptr<Worker> start_batch(const std::vector<ResolvedRun>& runs, int memory_mib,
                                     const volatile bool* stop);
 BatchMessage to_batch_message(const std::string& bytes);
 

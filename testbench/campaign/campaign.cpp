@@ -144,7 +144,7 @@ class Campaign {
       PendingRun run;
       try {
         run.scene = &loader_.scene(request);
-        run.resolved = {i, loader_.hardware(request), request.options};
+        run.resolved = {i, loader_.hardware(request), request.options, nullptr};
         run.resolved.options.one_core = true;
         run.rtl = rtl_parameters_text({run.resolved.hardware.formats, {}});
         stored.text = canonical_text(run.scene->hash, run.resolved.hardware, request.options,
@@ -210,36 +210,44 @@ class Campaign {
     return known.outcome == Outcome::refused || !options_.retry_failed;
   }
 
+  // Starts a worker with the next runs. Batches get smaller towards the end, so that all workers
+  // end at about the same time.
   void start_worker() {
-    // Smaller batches towards the end, so that all workers end at about the same time.
-    constexpr std::size_t kLargestBatch = 16;
+    constexpr std::size_t kLargestBatch = 16, kMostTriangles = 100'000;
     const std::size_t share = queue_.size() / (2 * jobs_);
     const std::size_t size = one_by_one_ > 0 ? 1 : std::clamp<std::size_t>(share, 1, kLargestBatch);
     ActiveWorker active;
-    Loader::LoadedScene& scene = *queue_.front().scene;
     std::vector<ResolvedRun> batch;
-    while (!queue_.empty() && batch.size() < size && queue_.front().scene == &scene) {
-      batch.push_back(queue_.front().resolved);
-      active.runs.push_back(std::move(queue_.front()));
+    std::size_t triangles = 0;
+    while (!queue_.empty() && batch.size() < size && triangles < kMostTriangles) {
+      PendingRun run = std::move(queue_.front());
       queue_.pop_front();
-    }
-    one_by_one_ -= std::min(one_by_one_, batch.size());
-    std::shared_ptr<const PreparedScene> prepared = scene.prepared.lock();
-    if (!prepared) {
+      one_by_one_ -= one_by_one_ > 0 ? 1 : 0;
       try {
-        prepared = std::make_shared<const PreparedScene>(scene.scene);
+        const auto scene = prepared(*run.scene);
+        if (batch.empty() || batch.back().scene != scene) {
+          triangles += scene->geometry.triangles.size();
+        }
+        batch.push_back(run.resolved);
+        batch.back().scene = scene;
+        active.runs.push_back(std::move(run));
       } catch (const InputError& error) {
-        for (const PendingRun& run : active.runs)
-          record(run.resolved.index, refused(error.what()), 0);
-        return;
+        record(run.resolved.index, refused(error.what()), 0);
       }
-      scene.prepared = prepared;
     }
-    last_scene_ = prepared;
-    active.worker =
-        start_batch(std::move(batch), prepared, options_.limits.memory_mib, stop_.get());
+    if (batch.empty()) return;
+    active.worker = start_batch(batch, options_.limits.memory_mib, stop_.get());
     active.since = Clock::now();
     workers_.push_back(std::move(active));
+  }
+
+  std::shared_ptr<const PreparedScene> prepared(Loader::LoadedScene& scene) {
+    last_scene_ = scene.prepared.lock();
+    if (!last_scene_) {
+      last_scene_ = std::make_shared<const PreparedScene>(scene.scene);
+      scene.prepared = last_scene_;
+    }
+    return last_scene_;
   }
 
   void wait_for_messages() {

@@ -107,6 +107,8 @@ class Session {
         [&](const CampaignProgress& progress) { display_(before + progress); },
         [&] { return interrupted != 0 || late(); });
     total_.progress = before + result.progress;
+    // Runs for which there was no time do not count.
+    if (late()) total_.progress.total = total_.progress.known + total_.progress.done();
     total_.interrupted = interrupted != 0 || (result.interrupted && !late());
     for (StoredRun& run : result.not_passed) total_.not_passed.push_back(std::move(run));
   }
