@@ -41,6 +41,10 @@ const Settings<SetupPolicy>& SetupPolicy::settings() {
                      "which six numbers a triangle gets: the paper's Taylor series, or a fit"),
       number_setting("setup_engine", "subdivide_degrees", &P::subdivide_degrees, "degrees", 0, 180,
                      "triangles whose normals turn by more are split into four; 0: never"),
+      number_setting(
+          "setup_engine", "mantissa_bits", &P::mantissa_bits, "bits", 8, kDoubleMantissaBits,
+          "of the setup engine's numbers: every operation is rounded to them; 52: double "
+          "precision"),
   };
   return all;
 }

@@ -94,10 +94,14 @@ struct DatapathConfiguration : FixedPointFormats, EffectBlocks {
   void check() const;
 };
 
+constexpr int kDoubleMantissaBits = 52;
+
 // How the setup engine computes coefficients. No register or adder of the datapath depends on it.
 struct SetupPolicy {
   SeriesFit series_fit = SeriesFit::taylor;
   int subdivide_degrees = 0;  // triangles that turn more sharply are split; 0: none
+  // Of the setup engine's numbers, after the leading one; every operation is rounded to them.
+  int mantissa_bits = kDoubleMantissaBits;
 
   static const Settings<SetupPolicy>& settings();
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/fixed/rounding_bound.h"
+#include "model/shading/rounded.h"
 
 namespace phongpipe {
 namespace {
@@ -21,8 +22,65 @@ FixedLinear round_coefficients(const Linear<double>& q, int fraction_bits, bool&
 }
 
 // What double precision may lose in cosines: a few units in the last place, times the square of the
-// steepest gradient, 256 a pixel, and that of the extent in pixels.
+// steepest gradient, 256 a pixel, and that of the extent in pixels. Every bit of the mantissa less
+// doubles it.
 constexpr double kArithmeticNoise = 2e-11;
+
+// The inputs and constants of setup in the arithmetic of a scalar.
+template <typename T>
+Vector3<T> in(const Vector3<double>& v) {
+  return v.cast<T>();
+}
+template <typename T>
+std::array<T, 3> in(const std::array<double, 3>& v) {
+  return {T(v[0]), T(v[1]), T(v[2])};
+}
+template <typename T>
+Corners<T> in(const Corners<double>& corners) {
+  return {in<T>(corners[0]), in<T>(corners[1]), in<T>(corners[2])};
+}
+template <typename T>
+TriangleInput<T> in(const TriangleInput<double>& input) {
+  const auto& [x, y, z, normal, eye, light, cue_factor] = input;
+  return {in<T>(x), in<T>(y), in<T>(z), in<T>(normal), in<T>(eye), in<T>(light), in<T>(cue_factor)};
+}
+template <typename T>
+LightInput<T> in(const LightInput<double>& input) {
+  const auto& [to_light, eye, halfway, attenuation, spot_axis, spot_exponent, fold, sharpness] =
+      input.terms;
+  return {{in<T>(to_light), in<T>(eye), in<T>(halfway), in<T>(attenuation), in<T>(spot_axis),
+           T(spot_exponent), T(fold), T(sharpness)},
+          in<T>(input.diffuse_scale),
+          T(input.specular_scale),
+          T(input.gate_scale)};
+}
+
+double value(double x) {
+  return x;
+}
+double value(const Rounded& x) {
+  return x.value();
+}
+template <typename T>
+SeriesRange<double> values(const SeriesRange<T>& range) {
+  return {value(range.low), value(range.high)};
+}
+template <typename T>
+Quadratic<double> values(const Quadratic<T>& t) {
+  return {value(t.t0), value(t.t1), value(t.t2), value(t.t3), value(t.t4), value(t.t5)};
+}
+template <typename T>
+Linear<double> values(const Linear<T>& q) {
+  return {value(q.a), value(q.b), value(q.c)};
+}
+template <typename T>
+TriangleCoefficients<double> values(const TriangleCoefficients<T>& t) {
+  return {{values(t.diffuse[0]), values(t.diffuse[1]), values(t.diffuse[2])},
+          values(t.specular),
+          values(t.gate),
+          values(t.depth),
+          values(t.cue_factor)};
+}
 
 }  // namespace
 
@@ -72,14 +130,15 @@ SeriesPlan SetupEngine::simplified_plan(const MaterialSetup& material,
 }
 
 void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
-                            const TriangleInput<double>& vertices,
-                            const TriangleBounds<double>& bounds, int longest_row) const {
-  const DatapathConfiguration& configuration = frame_->configuration;
+                            const TriangleInput<double>& vertices, const SeriesRange<double>& light,
+                            const SeriesRange<double>& highlight, int longest_row) const {
+  const FrameConfiguration& configuration = frame_->configuration;
   double extent = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     extent = std::max({extent, std::fabs(vertices.x[i]), std::fabs(vertices.y[i])});
   }
-  const double noise = kArithmeticNoise * (1 + extent * extent);
+  const double noise = std::ldexp(kArithmeticNoise * (1 + extent * extent),
+                                  kDoubleMantissaBits - configuration.mantissa_bits);
   const auto slack = [&](int fraction_bits) {
     return rounding_bound(configuration, fraction_bits, extent, longest_row);
   };
@@ -89,7 +148,7 @@ void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
       if (scale > 0) least_scale = std::min(least_scale, scale);
     }
     const double highest =
-        (bounds.light.high + noise) * least_scale + slack(configuration.diffuse_fraction_bits);
+        (light.high + noise) * least_scale + slack(configuration.diffuse_fraction_bits);
     if (highest <= 0) {
       plan.diffuse = SeriesForm::absent;
       if (configuration.gate != GateSource::off) plan.specular = plan.gate = SeriesForm::absent;
@@ -99,19 +158,29 @@ void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
     // What is below 0 reads the word at 0, as long as it does not wrap.
     const double addresses = material.light.specular_scale;
     const double off = noise * addresses + slack(configuration.specular_fraction_bits);
-    plan.highlight_invisible =
-        material.first_visible_address > 0 &&
-        bounds.highlight.high * addresses + off < material.first_visible_address &&
-        bounds.highlight.low * addresses - off > -addresses * (1 << kGuardBits);
+    plan.highlight_invisible = material.first_visible_address > 0 &&
+                               highlight.high * addresses + off < material.first_visible_address &&
+                               highlight.low * addresses - off > -addresses * (1 << kGuardBits);
     if (plan.highlight_invisible && frame_->effects == Effects::derived) {
       plan.specular = plan.gate = SeriesForm::absent;
     }
   }
 }
 
+template <typename T>
+TriangleCoefficients<double> SetupEngine::compute(SeriesPlan& plan, const MaterialSetup& material,
+                                                  const TriangleInput<double>& vertices,
+                                                  int longest_row) const {
+  const TriangleInput<T> triangle = in<T>(vertices);
+  const LightInput<T> light = in<T>(material.light);
+  const TriangleBounds<T> bounds = bound_triangle(plan, triangle, light);
+  leave_out(plan, material, vertices, values(bounds.light), values(bounds.highlight), longest_row);
+  return values(setup_triangle(plan, triangle, light, bounds));
+}
+
 TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
                                   int longest_row) const {
-  const DatapathConfiguration& configuration = frame_->configuration;
+  const FrameConfiguration& configuration = frame_->configuration;
   TriangleSetup setup;
   setup.x = x;
   setup.y = y;
@@ -120,10 +189,13 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
   setup.material = &frame_->material(pass, frame_->geometry->triangles[triangle].material);
   const TriangleInput<double> vertices = input(triangle, pass, x, y);
   SeriesPlan plan = simplified_plan(*setup.material, vertices);
-  const TriangleBounds<double> bounds = bound_triangle(plan, vertices, setup.material->light);
-  leave_out(plan, *setup.material, vertices, bounds, longest_row);
-  const TriangleCoefficients<double> exact =
-      setup_triangle(plan, vertices, setup.material->light, bounds);
+  TriangleCoefficients<double> exact;
+  if (configuration.mantissa_bits == kDoubleMantissaBits) {
+    exact = compute<double>(plan, *setup.material, vertices, longest_row);
+  } else {
+    const Rounded::Precision precision(configuration.mantissa_bits);
+    exact = compute<Rounded>(plan, *setup.material, vertices, longest_row);
+  }
   setup.plan = plan;
   if (frame_->effects == Effects::all) {
     // The same numbers, at the cost of the whole computation.

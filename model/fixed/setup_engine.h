@@ -46,10 +46,15 @@ class SetupEngine {
   // The material's plan, with constant series if all normals are equal.
   SeriesPlan simplified_plan(const MaterialSetup& material,
                              const TriangleInput<double>& vertices) const;
-  // Removes series from the plan that provably change no pixel.
+  // Computes in the arithmetic of the scalar T. Removes series from the plan that provably change
+  // no pixel.
+  template <typename T>
+  TriangleCoefficients<double> compute(SeriesPlan& plan, const MaterialSetup& material,
+                                       const TriangleInput<double>& vertices,
+                                       int longest_row) const;
   void leave_out(SeriesPlan& plan, const MaterialSetup& material,
-                 const TriangleInput<double>& vertices, const TriangleBounds<double>& bounds,
-                 int longest_row) const;
+                 const TriangleInput<double>& vertices, const SeriesRange<double>& light,
+                 const SeriesRange<double>& highlight, int longest_row) const;
 
   const FrameSetup* frame_;
 };

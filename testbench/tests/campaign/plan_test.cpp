@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
 
 #include "model/scene/input_error.h"
+#include "testbench/cases/named_scene.h"
+#include "testbench/system/installation.h"
 
 namespace phongpipe {
 namespace {
@@ -131,6 +134,25 @@ TEST(Plan, ASampleOfASmallSpaceKeepsConditionsAndTheOrderOfTheGrid) {
   const auto points = points_of(plan);
   EXPECT_EQ(points.size(), 6U) << "as many as there are";
   EXPECT_EQ(points.front().values.front().second, "4");
+}
+
+// Every shipped sweep is a legal plan, of a size that a coffee break allows.
+TEST(Plan, ShippedSweepsAreLegal) {
+  const std::filesystem::path folder = std::string(PHONGPIPE_SOURCES) + "/testbench/sweeps";
+  const std::vector<std::string> names = names_in(folder);
+  EXPECT_EQ(names, (Values{"mantissa", "series", "sizes", "tables", "widths"}));
+  for (const std::string& name : names) {
+    Plan plan;
+    read_sweep_file(folder / (name + ".toml"), plan);
+    const auto points = points_of(plan);
+    EXPECT_GT(points.size(), 20U) << name;
+    EXPECT_LT(points.size(), 1000U) << name;
+    for (const PlanPoint& point : points) {
+      EXPECT_NO_THROW(load_hardware(point.request.hardware, point.request.settings)) << name;
+    }
+    EXPECT_NO_THROW(
+        load_named_scene(points.front().request.scene, points.front().request.settings));
+  }
 }
 
 }  // namespace
