@@ -26,15 +26,15 @@ TEST(Rounded, RoundsToNearestWithTiesToEven) {
 TEST(Rounded, EveryOperationIsRounded) {
   const Rounded::Precision precision(8);
   const Rounded third = Rounded(1) / Rounded(3);
-  EXPECT_EQ(third.value(), 171.0 / 512);
+  EXPECT_EQ(third.value(), 341.0 / 1024);
   EXPECT_EQ((Rounded(256) + third).value(), 256);
   EXPECT_EQ((Rounded(257) * Rounded(257)).value(), 257.0 * 256 + 256) << "66049 lies between";
   EXPECT_EQ(rsqrt(Rounded(4)).value(), 0.5);
   EXPECT_EQ(rsqrt(Rounded(2)).value(), 362.0 / 512);
   EXPECT_EQ(power(Rounded(0.5), Rounded(3)).value(), 0.125);
-  EXPECT_EQ(half(third).value(), 171.0 / 1024);
-  EXPECT_EQ(twice(third).value(), 171.0 / 256);
-  EXPECT_EQ((-third).value(), -171.0 / 512);
+  EXPECT_EQ(half(third).value(), 341.0 / 2048);
+  EXPECT_EQ(twice(third).value(), 341.0 / 512);
+  EXPECT_EQ((-third).value(), -341.0 / 1024);
   EXPECT_EQ(maximum(third, Rounded(0.25)).value(), third.value());
 }
 
