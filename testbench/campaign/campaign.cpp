@@ -86,11 +86,13 @@ class Loader {
   std::map<std::string, Hardware> presets_;
 };
 
-// A run that is not stored yet.
+// A run that is not stored yet. Small, for workers are forked from a process that holds them all:
+// what can be computed again from the request is not kept.
 struct PendingRun {
-  ResolvedRun resolved;
+  std::size_t index = 0;  // in the campaign
+  std::string identity;
   Loader::LoadedScene* scene = nullptr;
-  std::string rtl;  // parameters of the RTL that the user chose
+  std::size_t rtl = 0;  // the same for runs whose user chose the same parameters of the RTL
 };
 
 class Campaign {
@@ -102,8 +104,7 @@ class Campaign {
         options_(options),
         open_store_(open_store),
         show_(show),
-        should_stop_(should_stop),
-        stored_(runs.size()) {
+        should_stop_(should_stop) {
     jobs_ = options.jobs > 0 ? static_cast<std::size_t>(options.jobs)
                              : std::max(1U, std::thread::hardware_concurrency());
   }
@@ -138,60 +139,65 @@ class Campaign {
   std::vector<PendingRun> resolve() {
     std::vector<PendingRun> legal;
     std::set<std::string> seen;
+    std::map<std::string, std::size_t> rtl;
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       const RunRequest& request = runs_[i].request;
-      StoredRun& stored = stored_[i];
       PendingRun run;
+      run.index = i;
+      std::string reason;
       try {
         run.scene = &loader_.scene(request);
-        run.resolved = {i, loader_.hardware(request), request.options, nullptr};
-        run.resolved.options.one_core = true;
-        run.rtl = rtl_parameters_text({run.resolved.hardware.formats, {}});
-        stored.text = canonical_text(run.scene->hash, run.resolved.hardware, request.options,
-                                     options_.limits);
+        const Hardware hardware = loader_.hardware(request);
+        run.rtl =
+            rtl.emplace(rtl_parameters_text({hardware.formats, {}}), rtl.size()).first->second;
       } catch (const InputError& error) {
-        stored.result = refused(error.what());
-        stored.text = command_of(request) + "\n";
+        reason = error.what();
       }
-      stored.identity = identity_of(stored.text);
-      if (!in_shard(stored.identity) || !seen.insert(stored.identity).second) continue;
-      stored.command = command_of(request);
-      stored.scene = request.scene;
-      stored.hardware = request.hardware;
-      stored.values = runs_[i].values;
+      run.identity = identity_of(text_of(i));
+      if (!in_shard(run.identity) || !seen.insert(run.identity).second) continue;
       ++result_.progress.total;
-      if (stored.result.outcome == Outcome::refused) {
-        refused_.push_back(i);
-      } else {
+      if (reason.empty()) {
         legal.push_back(std::move(run));
+      } else {
+        refused_.emplace_back(std::move(run), reason);
       }
     }
-    if (legal.empty() && !refused_.empty()) {
-      throw InputError(stored_[refused_.front()].result.message);
-    }
+    if (legal.empty() && !refused_.empty()) throw InputError(refused_.front().second);
     return legal;
+  }
+
+  // The canonical text of a run; of one that is not legal, its command.
+  std::string text_of(std::size_t index) {
+    const RunRequest& request = runs_[index].request;
+    try {
+      return canonical_text(loader_.scene(request).hash, loader_.hardware(request), request.options,
+                            options_.limits);
+    } catch (const InputError&) {
+      return command_of(request) + "\n";
+    }
   }
 
   // Leaves out what is stored.
   void enqueue(std::vector<PendingRun> legal) {
     const auto known = store_->known();
-    const auto is_known = [&](std::size_t index) {
-      const auto found = known.find(stored_[index].identity);
+    const auto is_known = [&](const PendingRun& run) {
+      const auto found = known.find(run.identity);
       const bool enough =
-          found != known.end() && is_enough(found->second, runs_[index].request.options);
+          found != known.end() && is_enough(found->second, runs_[run.index].request.options);
       result_.progress.known += enough ? 1 : 0;
       return enough;
     };
-    for (const std::size_t index : refused_) {
-      if (!is_known(index)) record(index, stored_[index].result, 0);
+    for (const auto& [run, reason] : refused_) {
+      if (!is_known(run)) record(run, refused(reason), 0);
     }
+    refused_.clear();
     // Runs that share a scene stand together, and of these the runs that share the RTL, so that one
     // batch builds it.
-    std::stable_sort(legal.begin(), legal.end(), [](const auto& a, const auto& b) {
+    std::stable_sort(legal.begin(), legal.end(), [](const PendingRun& a, const PendingRun& b) {
       return std::tie(a.scene->order, a.rtl) < std::tie(b.scene->order, b.rtl);
     });
     for (PendingRun& run : legal) {
-      if (!is_known(run.resolved.index)) queue_.push_back(std::move(run));
+      if (!is_known(run)) queue_.push_back(std::move(run));
     }
     flush();
   }
@@ -228,11 +234,12 @@ class Campaign {
         if (batch.empty() || batch.back().scene != scene) {
           triangles += scene->geometry.triangles.size();
         }
-        batch.push_back(run.resolved);
-        batch.back().scene = scene;
+        const RunRequest& request = runs_[run.index].request;
+        batch.push_back({run.index, loader_.hardware(request), request.options, scene});
+        batch.back().options.one_core = true;
         active.runs.push_back(std::move(run));
       } catch (const InputError& error) {
-        record(run.resolved.index, refused(error.what()), 0);
+        record(run, refused(error.what()), 0);
       }
     }
     if (batch.empty()) return;
@@ -255,7 +262,6 @@ class Campaign {
     for (const ActiveWorker& active : workers_) files.push_back({active.worker->file(), POLLIN, 0});
     constexpr int kMilliseconds = 100;
     if (poll(files.data(), files.size(), kMilliseconds) <= 0) return;
-    std::vector<StoredRun> finished;
     for (std::size_t i = files.size(); i-- > 0;) {
       if (files[i].revents == 0) continue;
       ActiveWorker& active = workers_[i];
@@ -269,7 +275,7 @@ class Campaign {
 
   void take(ActiveWorker& active, const BatchMessage& message) {
     if (message.finished) {
-      record(message.index, message.result, seconds_since(active.since));
+      record(active.runs.front(), message.result, seconds_since(active.since));
       active.runs.pop_front();
     }
     active.since = Clock::now();
@@ -285,7 +291,7 @@ class Campaign {
       RunResult crash;
       crash.message = fmt::format("the process that did the run ended with {}", failure);
       crash.bucket = failure;
-      record(active.runs.front().resolved.index, crash, seconds_since(active.since));
+      record(active.runs.front(), crash, seconds_since(active.since));
       return;
     }
     one_by_one_ += active.runs.size();
@@ -304,7 +310,7 @@ class Campaign {
       late.outcome = Outcome::timed_out;
       late.message = fmt::format("not done after {} s", options_.limits.seconds);
       late.bucket = "time";
-      record(active.runs.front().resolved.index, late, seconds);
+      record(active.runs.front(), late, seconds);
       active.runs.pop_front();
       while (!active.runs.empty()) {
         queue_.push_front(std::move(active.runs.back()));
@@ -315,8 +321,15 @@ class Campaign {
     flush();
   }
 
-  void record(std::size_t index, const RunResult& result, double seconds) {
-    StoredRun& stored = stored_[index];
+  void record(const PendingRun& run, const RunResult& result, double seconds) {
+    const CampaignRun& asked = runs_[run.index];
+    StoredRun stored;
+    stored.identity = run.identity;
+    stored.text = text_of(run.index);
+    stored.command = command_of(asked.request);
+    stored.scene = asked.request.scene;
+    stored.hardware = asked.request.hardware;
+    stored.values = asked.values;
     stored.result = result;
     stored.seconds = seconds;
     Outcome& outcome = stored.result.outcome;
@@ -384,8 +397,7 @@ class Campaign {
   const std::function<bool()>& should_stop_;
   std::size_t jobs_ = 1;
   Loader loader_;
-  std::vector<StoredRun> stored_;     // by index of the run; emptied once it is recorded
-  std::vector<std::size_t> refused_;  // at once, by index of the run
+  std::vector<std::pair<PendingRun, std::string>> refused_;  // at once, and why
   std::deque<PendingRun> queue_;
   std::size_t one_by_one_ = 0;  // runs at the front of the queue that are batches of one
   std::vector<ActiveWorker> workers_;

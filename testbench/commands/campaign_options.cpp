@@ -98,8 +98,8 @@ class Session {
     parse_shard(command.shard, command.options);
   }
 
-  // `late`: whether the time for new runs is over.
-  void add(std::vector<CampaignRun> runs, const std::function<bool()>& late) {
+  // Sets the RTL of the runs, and does them. `late`: whether the time for new runs is over.
+  void add(std::vector<CampaignRun>& runs, const std::function<bool()>& late) {
     for (CampaignRun& run : runs) run.request.options.rtl = command_.rtl;
     const CampaignProgress before = total_.progress;
     CampaignResult result = run_campaign(
@@ -204,7 +204,8 @@ int CampaignCommand::run(const Plan& plan) {
   session.add(runs, never_late);
   if (rtl == RtlToVerify::superset && !session.stopped()) {
     rtl = RtlToVerify::native;
-    session.add(session.runs_of_front(runs), never_late);
+    std::vector<CampaignRun> front = session.runs_of_front(runs);
+    session.add(front, never_late);
   }
   return session.finish();
 }
@@ -228,7 +229,7 @@ int CampaignCommand::run_random(std::uint64_t seed, std::uint64_t count, double 
       const RunRequest request = random_run(seed, i);
       runs.push_back({request, values_of(request)});
     }
-    session.add(std::move(runs), late);
+    session.add(runs, late);
     done += size;
   }
   return session.finish();
