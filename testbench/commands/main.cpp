@@ -48,7 +48,8 @@ int run_program(int argc, char** argv) {
   application.require_subcommand(1);
   application.set_version_flag("--version", "phongpipe " PHONGPIPE_VERSION);
   application.footer(
-      "`phongpipe COMMAND --help` tells more; --help-settings explains the hardware's settings.\n"
+      "`phongpipe COMMAND --help` tells more; --help-settings explains the hardware's settings,\n"
+      "--help-metrics what is measured.\n"
       "Exit status: 0 all holds, 1 a check failed, 2 bad usage or input, 3 a tool or the machine "
       "failed.\n"
       "Example: phongpipe verify teapot --out out\n");
@@ -64,8 +65,10 @@ int run_program(int argc, char** argv) {
     return std::any_of(argv + 1, argv + argc,
                        [flag](const char* word) { return word == std::string_view(flag); });
   };
-  if (asked_for("--help-settings")) {
-    print_or_throw(settings_help());
+  for (const auto& [flag, help] :
+       {std::pair{"--help-settings", settings_help}, {"--help-metrics", metrics_help}}) {
+    if (!asked_for(flag)) continue;
+    print_or_throw(help());
     return 0;
   }
   check_command(application, argc, argv);

@@ -5,6 +5,7 @@
 
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
+#include "testbench/cosim/metrics.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/system/installation.h"
 #include "testbench/system/output_file.h"
@@ -30,6 +31,17 @@ std::string settings_help() {
   }
   return text + fmt::format("\n  {:<42} a card in hw/technology, or a file: the clock\n",
                             fmt::format("technology = {}", preset.technology.name));
+}
+
+std::string metrics_help() {
+  std::string text = "Metrics of a verification, in reports, JSON, CSV and databases.\n\n";
+  for (const Metric& metric : metrics()) {
+    const std::string_view better = metric.better == Metric::Better::less   ? "; less is better"
+                                    : metric.better == Metric::Better::more ? "; more is better"
+                                                                            : "";
+    text += fmt::format("  {:<27} {:<6} {}{}\n", metric.name, metric.unit, metric.meaning, better);
+  }
+  return text;
 }
 
 void write_output(const std::string& file, const std::string& text) {

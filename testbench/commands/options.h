@@ -31,8 +31,9 @@ void add_render(CLI::App& application, Run& run);
 void add_sweep(CLI::App& application, Run& run);
 void add_verify(CLI::App& application, Run& run);
 
-// The text of --help-settings.
+// The texts of --help-settings and --help-metrics.
 std::string settings_help();
+std::string metrics_help();
 
 // Options for the hardware, common to several commands.
 struct HardwareOptions {

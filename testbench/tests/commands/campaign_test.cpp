@@ -31,6 +31,19 @@ class Campaigns : public Program {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return arguments;
   }
+  // Begins a sweep of 144 runs, executes `script` once some of them are done, in which $pid is the
+  // sweep, and waits for the end.
+  ProcessOutput signal_sweep(const std::string& script) const {
+    std::string command = PHONGPIPE_PROGRAM;
+    for (const std::string& word : sweep("signal.db", {"--vary", "seed=1:12"})) {
+      command += " " + word;
+    }
+    return run_process(
+        {"sh", "-c",
+         fmt::format("{} & pid=$!\nwhile ! test -s {}; do sleep 0.02; done\nsleep 0.1\n{}\n"
+                     "wait $pid; echo status $?",
+                     command, file("signal.db"), script)});
+  }
   ResultTable table(const std::string& database) const {
     return Store(file(database), Store::Access::read).table();
   }
@@ -148,6 +161,34 @@ TEST_F(Campaigns, KilledTwentyTimesItEqualsAnUninterruptedSweep) {
   EXPECT_GT(killed, 0);
   ASSERT_EQ(run(sweep("killed.db", {"--vary", "seed=1:12"})).status, 0);
   EXPECT_EQ(without_seconds("whole.db"), without_seconds("killed.db"));
+}
+
+TEST_F(Campaigns, CtrlCFinishesWhatIsInFlightAndSaysHowToGoOn) {
+  const ProcessOutput output = signal_sweep("kill -INT $pid");
+  EXPECT_NE(output.text.find("status 130"), std::string::npos) << output.text;
+  EXPECT_NE(output.text.find("STOPPED sweep"), std::string::npos) << output.text;
+  EXPECT_NE(output.text.find("go on    the same command does the other"), std::string::npos);
+  const std::size_t done = table("signal.db").rows.size();
+  EXPECT_LT(done, 144U);
+  const ProcessOutput rest = run(sweep("signal.db", {"--vary", "seed=1:12"}));
+  EXPECT_NE(rest.text.find(fmt::format("{} were known", done)), std::string::npos) << rest.text;
+  EXPECT_EQ(table("signal.db").rows.size(), 144U);
+}
+
+// The runs that a killed worker had not finished are done by others.
+TEST_F(Campaigns, AKilledWorkerCostsNoRun) {
+  const ProcessOutput output = signal_sweep("pkill -KILL -P $pid");
+  EXPECT_NE(output.text.find("status 0"), std::string::npos) << output.text;
+  EXPECT_NE(output.text.find("144 of 144 runs passed"), std::string::npos) << output.text;
+}
+
+TEST_F(Campaigns, WorkersEndWithTheirParent) {
+  const ProcessOutput output = signal_sweep(
+      "children=$(pgrep -P $pid); kill -KILL $pid; sleep 0.5; "
+      "for child in $children; do grep -qs State:.[RSDT] /proc/$child/status && echo child lives; "
+      "done");
+  EXPECT_NE(output.text.find("status 137"), std::string::npos) << output.text;
+  EXPECT_EQ(output.text.find("child lives"), std::string::npos) << output.text;
 }
 
 TEST_F(Campaigns, ShardsMergeIntoTheWhole) {

@@ -1,7 +1,8 @@
-// --help and --help-settings.
+// --help, --help-settings and --help-metrics.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "testbench/cosim/metrics.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/tests/commands/program.h"
 
@@ -12,7 +13,11 @@ TEST_F(Program, HelpHasAnExampleAtEachLevel) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"verify", "--help"},
                                                     {"render", "--help"},
-                                                    {"compare", "--help"}}) {
+                                                    {"compare", "--help"},
+                                                    {"sweep", "--help"},
+                                                    {"regress", "--help"},
+                                                    {"export", "--help"},
+                                                    {"merge", "--help"}}) {
     const ProcessOutput output = run(arguments);
     EXPECT_EQ(output.status, 0);
     EXPECT_NE(output.text.find("Example: phongpipe"), std::string::npos) << output.text;
@@ -33,6 +38,16 @@ TEST_F(Program, HelpSettingsExplainsEachWithThePresetsValue) {
       EXPECT_NE(output.text.find(shown), std::string::npos) << shown;
       EXPECT_NE(output.text.find(setting.meaning), std::string::npos) << setting.name();
     }
+  }
+}
+
+TEST_F(Program, HelpMetricsExplainsEach) {
+  const ProcessOutput output = run({"--help-metrics"});
+  EXPECT_EQ(output.status, 0);
+  for (const Metric& metric : metrics()) {
+    EXPECT_NE(output.text.find(fmt::format("  {} ", metric.name)), std::string::npos)
+        << metric.name;
+    EXPECT_NE(output.text.find(metric.meaning), std::string::npos) << metric.name;
   }
 }
 
