@@ -65,8 +65,9 @@ int run_program(int argc, char** argv) {
     return std::any_of(argv + 1, argv + argc,
                        [flag](const char* word) { return word == std::string_view(flag); });
   };
-  for (const auto& [flag, help] :
-       {std::pair{"--help-settings", settings_help}, {"--help-metrics", metrics_help}}) {
+  const std::pair<const char*, std::string (*)()> texts[] = {{"--help-settings", settings_help},
+                                                             {"--help-metrics", metrics_help}};
+  for (const auto& [flag, help] : texts) {
     if (!asked_for(flag)) continue;
     print_or_throw(help());
     return 0;
