@@ -59,6 +59,7 @@ void build_rtl_of(const std::vector<ResolvedRun>& runs) {
   try {
     RtlBuildOptions options;
     options.quick = true;
+    options.sources = runs.front().options.rtl_sources;
     build_missing_rtl(configurations, options);
   } catch (const std::exception&) {
   }

@@ -17,6 +17,7 @@
 #include "testbench/cases/named_scene.h"
 #include "testbench/cosim/scene_hash.h"
 #include "testbench/rtl/rtl_builder.h"
+#include "testbench/rtl/rtl_library.h"
 #include "testbench/system/tool_error.h"
 
 namespace phongpipe {
@@ -137,6 +138,9 @@ class Campaign {
 
   // Loads scenes and hardware. What is not legal is refused.
   std::vector<PendingRun> resolve() {
+    if (!runs_.empty() && !runs_.front().request.options.rtl_sources.empty()) {
+      rtl_hash_ = rtl_hash(runs_.front().request.options.rtl_sources);
+    }
     std::vector<PendingRun> legal;
     std::set<std::string> seen;
     std::map<std::string, std::size_t> rtl;
@@ -171,7 +175,7 @@ class Campaign {
     const RunRequest& request = runs_[index].request;
     try {
       return canonical_text(loader_.scene(request).hash, loader_.hardware(request), request.options,
-                            options_.limits);
+                            options_.limits, rtl_hash_);
     } catch (const InputError&) {
       return command_of(request) + "\n";
     }
@@ -398,6 +402,7 @@ class Campaign {
   std::size_t jobs_ = 1;
   Loader loader_;
   std::vector<std::pair<PendingRun, std::string>> refused_;  // at once, and why
+  std::uint64_t rtl_hash_ = 0;  // of the user's RTL, which is the same for all runs
   std::deque<PendingRun> queue_;
   std::size_t one_by_one_ = 0;  // runs at the front of the queue that are batches of one
   std::vector<ActiveWorker> workers_;

@@ -100,7 +100,10 @@ class Session {
 
   // Sets the RTL of the runs, and does them. `late`: whether the time for new runs is over.
   void add(std::vector<CampaignRun>& runs, const std::function<bool()>& late) {
-    for (CampaignRun& run : runs) run.request.options.rtl = command_.rtl;
+    for (CampaignRun& run : runs) {
+      run.request.options.rtl = command_.rtl;
+      run.request.options.rtl_sources = command_.rtl_sources;
+    }
     const CampaignProgress before = total_.progress;
     CampaignResult result = run_campaign(
         runs, command_.options, [this]() -> Store& { return store(); },
@@ -177,6 +180,10 @@ void CampaignCommand::add_to(CLI::App& command) {
       "native",
       "Compare with RTL built for each configuration; with one RTL in which all "
       "of them run, and the Pareto front with its own; or with SystemC only");
+  command
+      .add_option("--rtl-sources", rtl_sources, "Folder of the RTL to verify, if not the installed")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory.description(""));
   command
       .add_option("--timeout", options.limits.seconds, "Seconds after which a run has timed out")
       ->capture_default_str()

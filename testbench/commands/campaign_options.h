@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -16,6 +17,7 @@ struct CampaignCommand {
   std::string database;  // file, or Store::kInMemory
   std::string shard;     // I/N
   RtlToVerify rtl = RtlToVerify::native;
+  std::filesystem::path rtl_sources;  // folder; empty: the installed RTL
   CampaignOptions options;
   std::function<void(const Store&)> finish;  // called with all results, if set
 

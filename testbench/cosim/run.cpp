@@ -163,7 +163,8 @@ std::string command_of(const RunRequest& request) {
 }
 
 std::string canonical_text(std::uint64_t scene_hash, const Hardware& hardware,
-                           const VerificationOptions& options, const RunLimits& limits) {
+                           const VerificationOptions& options, const RunLimits& limits,
+                           std::uint64_t rtl_hash) {
   std::string text = fmt::format("arithmetic={}\nscene={:016x}\n", kArithmeticVersion, scene_hash);
   for (const Setting<Hardware>& setting : hardware_settings()) {
     text += fmt::format("{}={}\n", setting.name(), setting.value(hardware));
@@ -177,6 +178,7 @@ std::string canonical_text(std::uint64_t scene_hash, const Hardware& hardware,
   for (const RunOption& option : run_options()) {
     text += fmt::format("{}={}\n", option.name, option.get(options));
   }
+  if (rtl_hash != 0) text += fmt::format("rtl={:016x}\n", rtl_hash);
   return text + fmt::format("seconds={}\nmemory_mib={}\n", limits.seconds, limits.memory_mib);
 }
 

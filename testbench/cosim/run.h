@@ -46,9 +46,10 @@ struct RunLimits {
 };
 
 // The text that says everything a result depends on, a line each, and its hash: 16 hexadecimal
-// digits.
+// digits. `rtl_hash`: of the user's RTL; 0 for the installed one.
 std::string canonical_text(std::uint64_t scene_hash, const Hardware& hardware,
-                           const VerificationOptions& options, const RunLimits& limits);
+                           const VerificationOptions& options, const RunLimits& limits,
+                           std::uint64_t rtl_hash = 0);
 std::string identity_of(const std::string& canonical_text);
 
 // `failed`: a check of the verification failed. `refused`: the scene or the hardware is not legal.

@@ -18,23 +18,6 @@ namespace phongpipe {
 namespace fs = std::filesystem;
 namespace {
 
-// Hash of what libraries are built from. Their names carry it, so that a changed RTL is never
-// answered with an old library.
-std::uint64_t source_hash(const fs::path& sources) {
-  std::vector<fs::path> files = rtl_sources(sources);
-  for (const char* file : {"rtl_abi.h", "rtl_shim.h"}) {
-    files.push_back(installation().rtl_shim / file);
-  }
-  FnvHash hash;
-  for (const fs::path& file : files) {
-    const std::string text = read_whole_file(file);
-    hash.add(file.filename().string());
-    hash.add(text.size());
-    hash.add(text);
-  }
-  return hash.value();
-}
-
 fs::path user_cache() {
   const char* cache = std::getenv("XDG_CACHE_HOME");
   if (cache != nullptr && *cache != '\0') return fs::path(cache) / "phongpipe";
@@ -44,13 +27,14 @@ fs::path user_cache() {
          "phongpipe";
 }
 
-// Where the libraries of one folder of sources are.
+// Where the libraries of one folder of sources are. Their names carry a hash of what they are built
+// from, so that a changed RTL is never answered with an old library.
 class LibraryFiles {
  public:
   explicit LibraryFiles(const RtlBuildOptions& options)
       : sources_(options.sources.empty() ? installation().hardware : options.sources),
         kept_(options.destination.empty() ? user_cache() : options.destination),
-        hash_(source_hash(sources_)) {}
+        hash_(rtl_hash(sources_)) {}
 
   const fs::path& sources() const { return sources_; }
   // The file, which need not exist.
@@ -68,6 +52,22 @@ class LibraryFiles {
 };
 
 }  // namespace
+
+std::uint64_t rtl_hash(const fs::path& folder) {
+  const fs::path& sources = folder.empty() ? installation().hardware : folder;
+  std::vector<fs::path> files = rtl_sources(sources);
+  for (const char* file : {"rtl_abi.h", "rtl_shim.h"}) {
+    files.push_back(installation().rtl_shim / file);
+  }
+  FnvHash hash;
+  for (const fs::path& file : files) {
+    const std::string text = read_whole_file(file);
+    hash.add(file.filename().string());
+    hash.add(text.size());
+    hash.add(text);
+  }
+  return hash.value();
+}
 
 void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
                        const RtlBuildOptions& options) {

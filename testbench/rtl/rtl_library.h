@@ -2,6 +2,7 @@
 // built before, else built from the installed RTL and kept.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -20,6 +21,9 @@ struct RtlBuildOptions {
   bool quick = false;                 // see build_rtl(); for libraries that run for a moment
   std::function<void(const std::string&)> progress;  // called with what is being built, if anything
 };
+
+// Hash of the RTL in a folder, and of what is compiled with it. Empty: the installed RTL.
+std::uint64_t rtl_hash(const std::filesystem::path& sources);
 
 // Builds the libraries of the configurations that are not built yet, together, which is faster than
 // one by one. Throws as RtlLibrary does.

@@ -320,6 +320,35 @@ TEST_F(Campaigns, RandomRegressionsOfOneSeedAreTheSame) {
   expect_refused({"regress", "sphere", "--random"}, "draws its scenes itself");
 }
 
+// RTL that reads a wrong word of the table fails in one bucket, with the command that shows it. The
+// same RTL again is known; the installed RTL is another run.
+TEST_F(Campaigns, FailuresOfTheUsersRtlAreOneBucket) {
+  fs::create_directories(folder_ / "rtl");
+  for (const auto& entry : fs::directory_iterator(PHONGPIPE_HARDWARE)) {
+    if (entry.is_regular_file()) fs::copy(entry.path(), folder_ / "rtl");
+  }
+  std::string rom = read_whole_file(file("rtl/exponent_rom.sv"));
+  const std::string read = "word <= table_words[address];";
+  ASSERT_NE(rom.find(read), std::string::npos);
+  rom.replace(rom.find(read), read.size(), "word <= table_words[address ^ 512];");
+  write("rtl/exponent_rom.sv", rom);
+  setenv("XDG_CACHE_HOME", file("cache").c_str(), 1);
+  const std::vector<std::string> regress = {"regress",       "sphere",    "torus",
+                                            "--rtl-sources", file("rtl"), "--db",
+                                            file("a.db"),    "--junit",   file("junit.xml")};
+  const ProcessOutput output = run(regress);
+  EXPECT_EQ(output.status, 1) << output.text;
+  EXPECT_NE(output.text.find("2 × RTL: color: RTL differs from the model in"), std::string::npos)
+      << output.text;
+  EXPECT_NE(output.text.find("again  phongpipe verify sphere --rtl " + file("rtl")),
+            std::string::npos)
+      << output.text;
+  EXPECT_NE(read_whole_file(file("junit.xml")).find("failures=\"2\""), std::string::npos);
+  EXPECT_NE(run(regress).text.find("2 were known"), std::string::npos);
+  const ProcessOutput installed = run({"regress", "sphere", "--db", file("a.db")});
+  EXPECT_NE(installed.text.find("1 of 1 runs passed"), std::string::npos) << installed.text;
+}
+
 TEST_F(Campaigns, ExportsTheColumnsThatScriptsRelyOn) {
   ASSERT_EQ(run(sweep("a.db")).status, 0);
   const ProcessOutput csv = run_for_answer("export " + file("a.db") + " --csv -");
