@@ -189,6 +189,10 @@ class Campaign {
       const bool enough =
           found != known.end() && is_enough(found->second, runs_[run.index].request.options);
       result_.progress.known += enough ? 1 : 0;
+      if (enough && found->second.outcome != Outcome::passed &&
+          found->second.outcome != Outcome::refused) {
+        ++result_.progress.known_failures;
+      }
       return enough;
     };
     for (const auto& [run, reason] : refused_) {
@@ -420,6 +424,7 @@ CampaignProgress CampaignProgress::operator+(const CampaignProgress& later) cons
   CampaignProgress sum = later;
   sum.total += total;
   sum.known += known;
+  sum.known_failures += known_failures;
   sum.passed += passed;
   sum.failed += failed;
   sum.refused += refused;

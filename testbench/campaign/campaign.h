@@ -34,14 +34,16 @@ struct BestRun {
 
 // State of a campaign.
 struct CampaignProgress {
-  std::uint64_t total = 0;  // runs of the shard
-  std::uint64_t known = 0;  // of them that were stored before
+  std::uint64_t total = 0;           // runs of the shard
+  std::uint64_t known = 0;           // of them that were stored before
+  std::uint64_t known_failures = 0;  // of these that failed, crashed or timed out
   std::uint64_t passed = 0, failed = 0, refused = 0, crashed = 0, timed_out = 0;  // done now
   double seconds = 0;           // since the first run was begun
   std::optional<BestRun> best;  // of those done now
 
   // Of two parts of a campaign, one done after the other.
   CampaignProgress operator+(const CampaignProgress& later) const;
+  std::uint64_t failures() const { return failed + crashed + timed_out + known_failures; }
   std::uint64_t done() const { return passed + failed + refused + crashed + timed_out; }
 };
 

@@ -137,7 +137,7 @@ class Session {
     if (command_.finish) command_.finish(*store_);
     if (interrupted != 0) return kInterrupted;
     const CampaignProgress& p = total_.progress;
-    return p.crashed > 0 ? kToolFailed : p.failed + p.timed_out > 0 ? kCheckFailed : 0;
+    return p.crashed > 0 ? kToolFailed : p.failures() > 0 ? kCheckFailed : 0;
   }
 
  private:

@@ -123,9 +123,8 @@ std::string progress_line(const CampaignProgress& p) {
 std::string campaign_text(const CampaignResult& result, const Store& store, const std::string& file,
                           bool color) {
   const CampaignProgress& p = result.progress;
-  const std::uint64_t failures = p.failed + p.crashed + p.timed_out;
-  const bool good = failures == 0 && !result.interrupted;
-  std::string verdict = result.interrupted ? "STOPPED" : failures > 0 ? "FAILED" : "PASSED";
+  const bool good = p.failures() == 0 && !result.interrupted;
+  std::string verdict = result.interrupted ? "STOPPED" : p.failures() > 0 ? "FAILED" : "PASSED";
   if (color) {
     verdict = fmt::format(
         fmt::emphasis::bold | fmt::fg(good ? fmt::terminal_color::green : fmt::terminal_color::red),
@@ -134,6 +133,10 @@ std::string campaign_text(const CampaignResult& result, const Store& store, cons
   std::string text = fmt::format("{} {}  {} of {} runs passed{}", verdict, store.kind(),
                                  count_text(p.passed), count_text(p.total - p.known), outcomes(p));
   if (p.known > 0) text += fmt::format("; {} were known", count_text(p.known));
+  if (p.known_failures > 0) {
+    text += fmt::format(", {} of them failed; --retry-failed does these again",
+                        count_text(p.known_failures));
+  }
   text += fmt::format("; {}\n", duration(p.seconds));
   add_failures(text, result);
   if (store.kind() == "sweep") add_front(text, store);
