@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <set>
 #include <stdexcept>
 
@@ -195,6 +196,7 @@ Store::Store(const fs::path& file, Access access, const std::string& kind)
   if (fs::exists(file, none) && !fs::is_regular_file(file, none)) {
     throw InputError(fmt::format("{}: not a file", printable(file.string())));
   }
+  std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit of file sizes, a write then fails
   guarded(file_, [&] {
     const int flags = access == Access::read ? SQLite::OPEN_READONLY
                                              : SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE;
