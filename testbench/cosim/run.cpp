@@ -55,6 +55,30 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+// The words that a shell makes of a line in which words are as quoted() gives them.
+std::vector<std::string> shell_words(const std::string& line) {
+  std::vector<std::string> words;
+  bool inside = false, in_quotes = false;  // of a word, of its quotes
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == ' ' && !in_quotes) {
+      inside = false;
+      continue;
+    }
+    if (!inside) words.emplace_back();
+    inside = true;
+    if (c == '\'') {
+      in_quotes = !in_quotes;
+    } else if (c == '\\' && !in_quotes && i + 1 < line.size()) {
+      words.back() += line[++i];
+    } else {
+      words.back() += c;
+    }
+  }
+  if (in_quotes) throw InputError(fmt::format("{}: a quote is not closed", line));
+  return words;
+}
+
 // What of a failed verification is told first.
 struct Failure {
   std::string bucket, message;
@@ -160,6 +184,35 @@ std::string command_of(const RunRequest& request) {
     text += " --rtl " + quoted(request.options.rtl_sources.string());
   }
   return text;
+}
+
+RunRequest parse_command(const std::string& command) {
+  const std::vector<std::string> words = shell_words(command);
+  if (words.size() < 3 || words[0] != "phongpipe" || words[1] != "verify") {
+    throw InputError(fmt::format("{}: not a command that verifies a scene", command));
+  }
+  RunRequest request;
+  request.scene = words[2];
+  for (std::size_t i = 3; i < words.size(); i += 2) {
+    if (i + 1 == words.size()) throw InputError(fmt::format("{}: no value", words[i]));
+    const std::string& value = words[i + 1];
+    const auto is_option = [&](const RunOption& option) {
+      return words[i] == fmt::format("--{}", option.name);
+    };
+    const auto option = std::find_if(run_options().begin(), run_options().end(), is_option);
+    if (option != run_options().end()) {
+      option->put(request.options, value);
+    } else if (words[i] == "--hardware") {
+      request.hardware = value;
+    } else if (words[i] == "--set") {
+      request.settings.push_back(value);
+    } else if (words[i] == "--rtl") {
+      request.options.rtl_sources = value;
+    } else {
+      throw InputError(fmt::format("{}: not an option of a run", words[i]));
+    }
+  }
+  return request;
 }
 
 std::string canonical_text(std::uint64_t scene_hash, const Hardware& hardware,

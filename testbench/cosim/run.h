@@ -38,6 +38,8 @@ void set_key(RunRequest& request, const std::string& key, const std::string& val
 
 // The command line that verifies the same: `phongpipe verify …`.
 std::string command_of(const RunRequest& request);
+// Its inverse. Throws InputError if the text is no such command line.
+RunRequest parse_command(const std::string& command);
 
 // What one run may take.
 struct RunLimits {

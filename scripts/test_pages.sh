@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# test_pages.sh [FOLDER]: makes a report of a small sweep and one of 10,000 runs, and tests the pages in
+# headless Chromium. Screenshots stay in FOLDER, if it is given. Installs what is missing of Chromium,
+# Node and playwright-core.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+missing=()
+for package in chromium nodejs npm python3; do
+  command -v "${package/nodejs/node}" >/dev/null || missing+=("$package")
+done
+if [ ${#missing[@]} -gt 0 ]; then
+  as_root=()
+  if [ "$(id -u)" -ne 0 ]; then as_root=(sudo); fi
+  "${as_root[@]}" apt-get -q update
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get -q -y --no-install-recommends install "${missing[@]}"
+fi
+program=${PHONGPIPE:-$PWD/build/bin/phongpipe}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+shots=${1:-$work}
+mkdir -p "$shots"
+npm install --prefix "$work" --no-audit --no-fund --silent playwright-core
+
+"$program" sweep sphere --set scene.image.width=96 --set scene.image.height=96 \
+  --set 'scene.object.0.segments=[12,8]' --vary rom_address_bits=5:9 \
+  --vary diffuse_fraction_bits=4,8,16 --rtl off --db "$work/sweep.db" >/dev/null
+"$program" report "$work/sweep.db" -o "$work/sweep.html" >/dev/null
+python3 testbench/tests/reports/many_runs.py "$work/sweep.db" "$work/many.db"
+"$program" report "$work/many.db" -o "$work/many.html" >/dev/null
+
+NODE_PATH=$work/node_modules node testbench/tests/reports/page_test.cjs \
+  "$work/sweep.html" "$work/many.html" "$shots"
+
+# The hardware that the page saves is the hardware of the run's command.
+"$program" verify sphere --hardware "$shots/run.toml" --set scene.image.width=96 \
+  --set scene.image.height=96 --set 'scene.object.0.segments=[12,8]' --json "$work/toml.json" >/dev/null
+eval "$(sed "s|^phongpipe|'$program'|" "$shots/run.command") --json '$work/command.json'" >/dev/null
+hash_of() { grep -o '"configuration_hash": "[0-9a-f]*"' "$1"; }
+[ "$(hash_of "$work/toml.json")" = "$(hash_of "$work/command.json")" ] || {
+  echo "test_pages.sh: the saved hardware is not that of the command" >&2
+  exit 1
+}
+echo "the saved hardware is that of the command"
