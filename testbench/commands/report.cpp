@@ -58,26 +58,29 @@ std::vector<PagePicture> pictures_of(const ResultTable& table, std::size_t row) 
 void add_pictures(PageContent& page, const ResultTable& table) {
   Progress progress;
   const std::vector<std::size_t> front = different_first(table, front_of(table));
-  std::set<std::string> missing;
-  std::size_t bytes = 0, tried = 0;
-  for (const std::size_t row : front) {
-    if (tried == kMostRuns || bytes >= kMostBytes) {
-      page.notes.push_back(
-          fmt::format("{} of the {} runs on the front are without pictures, to "
-                      "keep the page small; their commands make them.",
-                      front.size() - tried, front.size()));
-      break;
-    }
-    progress(fmt::format("pictures: run {} of {}", ++tried, std::min(front.size(), kMostRuns)));
+  const std::size_t most = std::min(front.size(), kMostRuns);
+  std::map<std::string, std::string> missing;  // from a scene to why
+  std::size_t bytes = 0, small_enough = 0;
+  for (; small_enough < most; ++small_enough) {
+    const std::size_t row = front[small_enough];
+    progress(fmt::format("pictures: run {} of {}", small_enough + 1, most));
     try {
       std::vector<PagePicture> pictures = pictures_of(table, row);
       for (const PagePicture& picture : pictures) bytes += picture.png.size();
+      if (bytes > kMostBytes) break;
       page.pictures[row] = std::move(pictures);
     } catch (const InputError& error) {
-      missing.insert(error.what());
+      missing.emplace(table.text(row, "scene"), error.what());
     }
   }
-  for (const std::string& why : missing) page.notes.push_back("Without pictures: " + why);
+  if (small_enough < front.size()) {
+    page.notes.push_back(
+        fmt::format("{} of the {} runs on the front are without pictures, to keep the page small.",
+                    front.size() - small_enough, front.size()));
+  }
+  for (const auto& [scene, why] : missing) {
+    page.notes.push_back(fmt::format("Runs of {} are without pictures: {}.", scene, why));
+  }
 }
 
 int report(const ReportOptions& options) {
@@ -86,6 +89,10 @@ int report(const ReportOptions& options) {
   if (chart_file == options.output) {
     throw InputError(
         fmt::format("{}: the page needs another name, for its chart is called so", options.output));
+  }
+  std::error_code none;
+  if (std::filesystem::equivalent(options.database, options.output, none)) {
+    throw InputError(fmt::format("{}: the page would replace the results", options.output));
   }
   check_writable(options.output);
   check_writable(chart_file);

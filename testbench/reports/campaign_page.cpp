@@ -78,7 +78,7 @@ std::string front_text(const ResultTable& table) {
   }
   const std::string fastest = measures_text(table, front.front());
   if (different.size() == 1) return fmt::format("Best in both time and error: {}.", fastest);
-  return fmt::format("Best trade-offs: {} of error for time. Fastest: {}. Most accurate: {}.",
+  return fmt::format("Best trade-offs, {} in all: fastest {}; most accurate {}.",
                      count_text(different.size()), fastest, measures_text(table, front.back()));
 }
 

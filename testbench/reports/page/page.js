@@ -16,7 +16,8 @@
     return {
       ...column,
       values,
-      varies: values.some((value) => value !== values[0]),
+      first: present.length > 0 ? present[0] : null,
+      varies: present.some((value) => value !== present[0]),
       numeric: present.length > 0 && present.every((value) => typeof value === 'number'),
       gaps: present.length < values.length,
       short: column.kind === 'setting' ? column.name.slice(column.name.lastIndexOf('.') + 1)
@@ -184,10 +185,12 @@
     $('scatter-text').textContent = sentences.join(' ');
   }
 
-  // Names beside points, where these are few and have names. What would cover another is left out.
+  // Names beside points, where these are few and each has its own. What would cover another is left
+  // out.
   function drawLabels(width) {
     labels.html('');
-    const named = varied.find((column) => !column.numeric);
+    const named = varied.find((column) =>
+        !column.numeric && new Set(column.values).size === data.rows);
     if (!named || data.rows > 60) return;
     const taken = [];
     const letters = 6.2, high = 12;
@@ -401,8 +404,9 @@
     if (column.gaps) {
       axis.append('text').attr('text-anchor', 'middle').attr('y', plane.height - 4).text('none');
     }
-    const half = 14;
-    const brush = d3.brushY().extent([[-half, plane.top], [half, plane.top + inner]])
+    // A little longer than the axis, so that its ends are easily within a selection.
+    const half = 14, top = plane.top - 6, bottom = plane.top + inner + 6;
+    const brush = d3.brushY().extent([[-half, top], [half, bottom]])
         .on('brush end', () => filterBy(dimension, d3.event.selection));
     const part = axis.append('g').attr('class', 'brush').call(brush);
     dimension.clear = () => part.call(brush.move, null);
@@ -411,7 +415,7 @@
       part.call(brush.move, selections[dimension.column.name]);
     }
     axis.on('keydown', () => {
-      const step = inner / 20, top = plane.top, bottom = plane.top + inner;
+      const step = inner / 20;
       const [high, low] = selections[column.name] || [top, bottom];
       const key = d3.event.key, turn = {ArrowUp: -step, ArrowDown: step}[key];
       if (key === 'Delete' || key === 'Backspace') dimension.clear();
@@ -427,9 +431,8 @@
   function filterBy({column, heights}, selection) {
     if (selection) {
       selections[column.name] = selection;
-      const slack = 0.5;  // of a pixel, so that the ends of an axis are within it
       filters.set(column.name, (row) => column.values[row] !== null &&
-          heights[row] >= selection[0] - slack && heights[row] <= selection[1] + slack);
+          heights[row] >= selection[0] && heights[row] <= selection[1]);
     } else {
       delete selections[column.name];
       filters.delete(column.name);
@@ -673,8 +676,8 @@
     fillSelects();
     fillLegend();
     fillList(document.querySelector('#common dl'), columns.filter((column) =>
-        !column.varies && column.values[0] !== null && column.values[0] !== '')
-        .map((column) => [column.name, withUnit(column, column.values[0])]));
+        !column.varies && column.first !== null && column.first !== '')
+        .map((column) => [column.name, withUnit(column, column.first)]));
     fillList(document.querySelector('#meanings dl'), columns.filter((column) => column.meaning)
         .map((column) => [column.name + (column.unit ? `, ${column.unit}` : ''), column.meaning]));
     $('text').hidden = document.querySelector('#text pre').textContent === '';
