@@ -18,6 +18,7 @@ fi
 program=${PHONGPIPE:-$PWD/build/bin/phongpipe}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+trap 'echo "test_pages.sh: the command in line $LINENO failed" >&2' ERR
 shots=${1:-$work}
 mkdir -p "$shots"
 npm install --prefix "$work" --no-audit --no-fund --silent playwright-core
@@ -28,9 +29,19 @@ npm install --prefix "$work" --no-audit --no-fund --silent playwright-core
 "$program" report "$work/sweep.db" -o "$work/sweep.html" >/dev/null
 python3 testbench/tests/reports/many_runs.py "$work/sweep.db" "$work/many.db"
 "$program" report "$work/many.db" -o "$work/many.html" >/dev/null
+# A scene with a hostile name, and a folder for the / in it.
+mkdir "$work/<"
+cp testbench/scenes/sphere.toml "$work/</script><b>x.toml"
+(cd "$work" && "$program" sweep '</script><b>x.toml' --vary rom_address_bits=8,9 --vary budget=1,100 \
+  --rtl off --db failed.db >/dev/null) || [ $? -eq 1 ]
+(cd "$work" && "$program" report failed.db -o failed.html >/dev/null)
+small=(--set scene.image.width=96 --set scene.image.height=96)
+"$program" compare sphere "${small[@]}" --out "$work" >/dev/null
+"$program" verify sphere torus "${small[@]}" --budget 1000 --out "$work" >/dev/null
 
 NODE_PATH=$work/node_modules node testbench/tests/reports/page_test.cjs \
-  "$work/sweep.html" "$work/many.html" "$shots"
+  "$work/sweep.html" "$work/many.html" "$work/failed.html" "$work/sphere-methods.html" \
+  "$work/verify.html" "$shots"
 
 # The hardware that the page saves is the hardware of the run's command.
 "$program" verify sphere --hardware "$shots/run.toml" --set scene.image.width=96 \

@@ -47,15 +47,7 @@ bool is_plain(char c) {
          std::string_view("_-+=.,:/@%").find(c) != std::string_view::npos;
 }
 
-// A word that a shell takes as it is.
-std::string quoted(const std::string& text) {
-  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
-// The words that a shell makes of a line in which words are as quoted() gives them.
+// The words that a shell makes of a line in which words are as shell_word() gives them.
 std::vector<std::string> shell_words(const std::string& line) {
   std::vector<std::string> words;
   bool inside = false, in_quotes = false;  // of a word, of its quotes
@@ -171,17 +163,24 @@ void set_key(RunRequest& request, const std::string& key, const std::string& val
   }
 }
 
+std::string shell_word(const std::string& text) {
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
 std::string command_of(const RunRequest& request) {
   const RunRequest none;
-  std::string text = "phongpipe verify " + quoted(request.scene);
-  if (request.hardware != none.hardware) text += " --hardware " + quoted(request.hardware);
-  for (const std::string& setting : request.settings) text += " --set " + quoted(setting);
+  std::string text = "phongpipe verify " + shell_word(request.scene);
+  if (request.hardware != none.hardware) text += " --hardware " + shell_word(request.hardware);
+  for (const std::string& setting : request.settings) text += " --set " + shell_word(setting);
   for (const RunOption& option : run_options()) {
     const std::string value = option.get(request.options);
     if (value != option.get(none.options)) text += fmt::format(" --{} {}", option.name, value);
   }
   if (!request.options.rtl_sources.empty()) {
-    text += " --rtl " + quoted(request.options.rtl_sources.string());
+    text += " --rtl " + shell_word(request.options.rtl_sources.string());
   }
   return text;
 }

@@ -162,9 +162,11 @@ std::string json_pictures(const PageContent& content) {
 
 std::string json_data(const PageContent& content) {
   return fmt::format(
-      "{{\"title\":{},\"rows\":{},\"x\":{},\"y\":{},\n\"columns\":{},\n\"commands\":{},\n{}}}",
-      json_text(content.title), content.rows.size(), json_text(content.x), json_text(content.y),
-      json_columns(content), json_commands(content.commands), json_pictures(content));
+      "{{\"title\":{},\"row\":{},\"rows\":{},\"alternatives\":{},\"x\":{},\"y\":{},\n"
+      "\"columns\":{},\n\"commands\":{},\n{}}}",
+      json_text(content.title), json_text(content.row), content.rows.size(), content.alternatives,
+      json_text(content.x), json_text(content.y), json_columns(content),
+      json_commands(content.commands), json_pictures(content));
 }
 
 std::string paragraphs(const std::vector<std::string>& texts) {
@@ -244,6 +246,7 @@ std::string result_page(const PageContent& content) {
   const auto& folder = installation().page;
   return filled(read_whole_file(folder / "page.html"), [&](std::string_view name) -> std::string {
     if (name == "title") return html(content.title);
+    if (name == "row") return html(content.row);
     if (name == "summary") return paragraphs(content.summary);
     if (name == "notes") return paragraphs(content.notes);
     if (name == "details") return preformatted(content.details);

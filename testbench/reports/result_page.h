@@ -32,15 +32,17 @@ struct PagePicture {
 
 struct PageContent {
   std::string title;
+  std::string row = "run";           // what a row is
   std::vector<std::string> summary;  // what comes first, a line each
   std::vector<std::string> notes;  // what else there is to know, such as pictures that are missing
   std::vector<PageColumn> columns;
   // Cells in the order of the columns. A column `outcome`, if there is one, tells what passed.
   std::vector<std::vector<Cell>> rows;
-  std::vector<std::string> commands;  // of each row, to see it again; or none at all
+  std::vector<std::string> commands;  // of each row, to see it again, or empty; or none at all
   std::map<std::size_t, std::vector<PagePicture>> pictures;  // by row
-  std::string x, y;                                          // metrics that are shown first
-  std::string details;  // a text with lines of its own, shown on demand; or empty
+  bool alternatives = true;  // rows compete, so that there is a front
+  std::string x, y;          // metrics that are shown first
+  std::string details;       // a text with lines of its own, shown on demand; or empty
 };
 
 // Texts from outside may hold anything. Fractional numbers are given with 6 digits.

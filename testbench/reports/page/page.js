@@ -49,7 +49,12 @@
   };
   const withUnit = (column, value) =>
       text(column, value) + (column.unit && value !== null ? ' ' + column.unit : '');
-  const counted = (count, what) => `${numberText(count)} ${what}${count === 1 ? '' : 's'}`;
+  const counted = (count) => `${numberText(count)} ${data.row}${count === 1 ? '' : 's'}`;
+  // A column by which each row has a name of its own.
+  const naming = varied.find((column) =>
+      !column.numeric && new Set(column.values).size === data.rows);
+  const nameOf = (row) => data.row[0].toUpperCase() + data.row.slice(1) + ' ' +
+      (naming ? naming.values[row] : row + 1);
 
   // ---- What is chosen -------------------------------------------------------------------------
 
@@ -65,7 +70,7 @@
   // The rows that no other beats: none is at least as good in both and better in one. Equal rows
   // stand on the front together. Best in the first measure first.
   function frontOf(rows, first, second) {
-    if (first.better === 'neither' || second.better === 'neither') return [];
+    if (!data.alternatives || first.better === 'neither' || second.better === 'neither') return [];
     const a = (row) => first.better === 'less' ? first.values[row] : -first.values[row];
     const b = (row) => second.better === 'less' ? second.values[row] : -second.values[row];
     const order = rows.filter((row) =>
@@ -117,11 +122,13 @@
 
   // A logarithmic axis of less than a decade has too few powers of ten to be marked by them alone.
   function drawAxis(axis, scale, logarithmic, ticks) {
-    axis.ticks(ticks, logarithmic ? '~g' : undefined).tickSizeOuter(0);
+    axis.ticks(ticks).tickSizeOuter(0);
     if (!logarithmic) return axis;
     const [low, high] = scale.domain();
-    if (high / low < 20) axis.tickValues(d3.ticks(low, high, ticks));
-    return axis;
+    const few = 20;
+    if (high / low < few) axis.tickValues(d3.ticks(low, high, ticks));
+    return axis.tickFormat((value) => few > high / low || Number.isInteger(Math.log10(value))
+        ? String(Number(value.toPrecision(6))) : '');
   }
 
   function drawScatter() {
@@ -170,11 +177,13 @@
         .map(({key, values}) => `${numberText(values.length)} ${key.replace('_', ' ')}`);
     const hidden = kept.filter((row) => measured(row) && !usable(row)).length;
     const sentences = [];
-    if (xColumn.better === 'neither' || yColumn.better === 'neither') {
+    if (!data.alternatives) {
+      sentences.push(`No front: one ${data.row} cannot take the place of another.`);
+    } else if (xColumn.better === 'neither' || yColumn.better === 'neither') {
       sentences.push('No front: of one of these no direction is better.');
     } else {
-      sentences.push(`${numberText(front.length)} of ${counted(kept.filter(hasPassed).length,
-          'run')} that passed on the front of what is shown.`);
+      sentences.push(`${numberText(front.length)} of ${counted(
+          kept.filter(hasPassed).length)} that passed on the front of what is shown.`);
     }
     if (unmeasured.length > 0) {
       sentences.push(`Not drawn, for they have no such value: ${unmeasured.join(', ')}.`);
@@ -189,13 +198,12 @@
   // out.
   function drawLabels(width) {
     labels.html('');
-    const named = varied.find((column) =>
-        !column.numeric && new Set(column.values).size === data.rows);
-    if (!named || data.rows > 60) return;
+    const most = 60;
+    if (!naming || data.rows > most) return;
     const taken = [];
     const letters = 6.2, high = 12;
     for (const row of order.slice().sort((i, j) => front.includes(j) - front.includes(i))) {
-      const name = named.values[row];
+      const name = naming.values[row];
       if (name === null) continue;
       const [x, y] = placeOf.get(row);
       const wide = letters * name.length;
@@ -217,7 +225,7 @@
     if (reached) reached.setAttribute('tabindex', -1);
     reached = nodeOf(row);
     reached.setAttribute('tabindex', 0);
-    reached.setAttribute('aria-label', `Run ${row + 1}: ` + describe(row)
+    reached.setAttribute('aria-label', `${nameOf(row)}: ` + describe(row)
         .map(([name, value]) => `${name} ${value}`).join(', '));
   }
 
@@ -246,13 +254,13 @@
     panel.replaceChildren();
     const heading = document.createElement('strong');
     if (row === null) {
-      heading.textContent = 'Point at a run, or walk through them with Tab and the arrow keys; ' +
-          'click or press Enter to open one.';
+      heading.textContent = `Point at a ${data.row}, or walk through them with Tab and the arrow ` +
+          'keys; click or press Enter to open one.';
       panel.append(heading);
       ring.attr('display', 'none');
       return;
     }
-    heading.textContent = `Run ${row + 1}` + (front.includes(row) ? ', on the front' : '');
+    heading.textContent = nameOf(row) + (front.includes(row) ? ', on the front' : '');
     const list = document.createElement('dl');
     fillList(list, describe(row));
     panel.append(heading, list);
@@ -295,8 +303,10 @@
   });
 
   function fillLegend() {
-    const entries = [['front', 'Pareto front'], ['passed', 'passed']];
-    if (all.some((row) => !hasPassed(row))) entries.push(['failed', 'failed']);
+    const entries = [['passed', 'passed']];
+    if (data.alternatives) entries.unshift(['front', 'Pareto front']);
+    const measured = (row) => metrics.some((column) => column.values[row] !== null);
+    if (all.some((row) => !hasPassed(row) && measured(row))) entries.push(['failed', 'failed']);
     const legend = d3.select('#legend');
     for (const [name, meaning] of entries) {
       legend.append('svg').attr('viewBox', '-7 -7 14 14').attr('aria-hidden', 'true')
@@ -308,7 +318,7 @@
   function fillSelects() {
     for (const id of ['x', 'y']) {
       for (const [label, members] of [['differ', metrics.filter((column) => column.varies)],
-                                      ['the same in all runs', metrics.filter((column) =>
+                                      [`the same in all ${data.row}s`, metrics.filter((column) =>
                                           !column.varies)]]) {
         if (members.length === 0) continue;
         const group = d3.select('#' + id).append('optgroup').attr('label', label);
@@ -364,7 +374,7 @@
     if (dimension.column.numeric) {
       const values = [...new Set(dimension.column.values)].filter((value) => value !== null);
       return values.length <= most && dimension.column.kind !== 'metric'
-          ? axis.tickValues(values).tickFormat(String) : axis.ticks(6, '~g');
+          ? axis.tickValues(values).tickFormat(String) : axis.ticks(6);
     }
     const names = dimension.scale.domain();
     const each = Math.ceil(names.length / most);
@@ -398,8 +408,8 @@
     const title = axis.append('text').attr('class', 'title').attr('text-anchor', 'middle')
         .attr('y', 18).text(column.short);
     const wide = title.node().getComputedTextLength();
-    if (wide > between - 6) title.attr('textLength', between - 6).attr('lengthAdjust',
-        'spacingAndGlyphs');
+    const room = Math.min(between, 2 * plane.side) - 6;
+    if (wide > room) title.attr('textLength', room).attr('lengthAdjust', 'spacingAndGlyphs');
     axis.append('title').text(column.name + (column.meaning ? ': ' + column.meaning : ''));
     if (column.gaps) {
       axis.append('text').attr('text-anchor', 'middle').attr('y', plane.height - 4).text('none');
@@ -505,7 +515,7 @@
     const head = document.createElement('tr');
     const number = document.createElement('th');
     number.scope = 'col';
-    number.textContent = 'run';
+    number.textContent = data.row;
     head.append(number);
     for (const column of shownColumns) {
       const cell = document.createElement('th'), button = document.createElement('button');
@@ -537,8 +547,8 @@
       const button = document.createElement('button');
       button.type = 'button';
       button.textContent = `${row + 1}${onFront.has(row) ? ' ◆' : ''}`;
-      button.setAttribute('aria-label', `Open run ${row + 1}${onFront.has(row) ? ', on the front'
-          : ''}`);
+      button.setAttribute('aria-label',
+                          `Open ${nameOf(row)}${onFront.has(row) ? ', on the front' : ''}`);
       button.addEventListener('click', () => openRun(row));
       first.append(button);
       line.append(first);
@@ -552,7 +562,7 @@
       body.append(line);
     }
     document.querySelector('tbody').replaceChildren(body);
-    $('count').textContent = `${numberText(kept.length)} of ${counted(data.rows, 'run')}` +
+    $('count').textContent = `${numberText(kept.length)} of ${counted(data.rows)}` +
         (kept.length > rowsShown ? `, the first ${rowsShown} shown` : '');
     $('more').hidden = kept.length <= rowsShown;
   }
@@ -604,14 +614,14 @@
   let opened = 0;
   function openRun(row) {
     opened = row;
-    $('run-heading').textContent = `Run ${row + 1}` + (front.includes(row) ? ', on the front' : '') +
+    $('run-heading').textContent = nameOf(row) + (front.includes(row) ? ', on the front' : '') +
         (outcomes ? ': ' + outcomeOf(row).replace('_', ' ') : '');
     const pictures = data.pictures[row] || [];
     $('pictures').replaceChildren(...pictures.map(([label, place]) => {
       const figure = document.createElement('figure'), image = document.createElement('img');
       const caption = document.createElement('figcaption');
       image.src = 'data:image/png;base64,' + data.images[place];
-      image.alt = `${label} of run ${row + 1}`;
+      image.alt = `${label} of ${nameOf(row)}`;
       caption.textContent = label === 'error map'
           ? 'error map: black 0, blue 1, red 2, yellow 3, white 4 LSB and more; green: not covered'
           : label;
@@ -619,9 +629,9 @@
       return figure;
     }));
     if (pictures.length === 0 && data.images.length > 0) {
-      $('pictures').textContent = 'No pictures of this run are kept in the page.';
+      $('pictures').textContent = `No pictures of this ${data.row} are kept in the page.`;
     }
-    $('command-part').hidden = words.length === 0;
+    $('command-part').hidden = commandOf(row) === '';
     $('command').textContent = commandOf(row);
     $('copy').textContent = 'Copy the command';
     const hasHardware = columns.some((column) =>
@@ -689,7 +699,7 @@
     });
     $('csv').addEventListener('click', () => save(fileName + '.csv', 'text/csv', csv()));
     $('toml').addEventListener('click', () =>
-        save(`${fileName}-run-${opened + 1}.toml`, 'application/toml', toml(opened)));
+        save(`${fileName}-${opened + 1}.toml`, 'application/toml', toml(opened)));
     $('copy').addEventListener('click', copyCommand);
     document.addEventListener('keydown', (event) => {
       if (event.key === 'Escape' && !$('run').open) clearFilters();

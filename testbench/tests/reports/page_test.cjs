@@ -1,13 +1,16 @@
-// Tests a page of results in headless Chromium: node page_test.cjs PAGE LARGE-PAGE [FOLDER]
+// Tests pages of results in headless Chromium:
+// node page_test.cjs PAGE LARGE-PAGE FAILED-PAGE METHODS-PAGE VERIFY-PAGE [FOLDER]
 // PAGE has 15 runs: rom_address_bits 5 to 9, of which 5 is refused, by diffuse_fraction_bits 4, 8,
-// 16. LARGE-PAGE has 10,000. Screenshots go to FOLDER, if it is given.
+// 16. LARGE-PAGE has 10,000. FAILED-PAGE has 2 runs that failed and 2 that passed, of a scene with
+// a hostile name. METHODS-PAGE is of `compare`, VERIFY-PAGE of `verify` for 2 scenes. Screenshots go
+// to FOLDER, if it is given.
 'use strict';
 const assert = require('assert');
 const fs = require('fs');
 const path = require('path');
 const {chromium} = require('playwright-core');
 
-const [pageFile, largeFile, folder] = process.argv.slice(2);
+const [pageFile, largeFile, failedFile, methodsFile, verifyFile, folder] = process.argv.slice(2);
 const address = (file) => 'file://' + path.resolve(file);
 
 // Opens a page that may ask for nothing but itself, and may report no error.
@@ -213,6 +216,51 @@ async function main() {
     const left = await count(page, '#scatter .point');
     assert.ok(left > 0 && left < 10000, `${left} points`);
     if (folder) await page.screenshot({path: path.join(folder, 'large.png'), fullPage: true});
+    await close();
+  });
+  const screenshot = (page, name) => folder &&
+      page.screenshot({path: path.join(folder, name + '.png'), fullPage: true});
+  await attempt('failed runs are drawn apart, and hostile names do nothing', async () => {
+    const {page, close} = await open(browser, failedFile);
+    assert.strictEqual(await count(page, '#scatter .failed'), 2);
+    assert.strictEqual(await count(page, '#scatter .point'), 4);
+    assert.match(await page.textContent('#legend'), /failed/);
+    assert.strictEqual(await count(page, 'b'), 0);
+    assert.match(await page.textContent('#summary'), /<\/script><b>x/);
+    await page.locator('tbody button').first().click();
+    assert.match(await page.textContent('#command'), /<\/script><b>x/);
+    await close();
+  });
+  await attempt('a page of methods', async () => {
+    const {page, close} = await open(browser, methodsFile);
+    assert.match(await page.textContent('#summary'), /Least error for their time: /);
+    assert.match(await page.textContent('#scatter'), /gouraud/);
+    await page.locator('tbody tr', {hasText: 'gouraud'}).locator('button').click();
+    assert.strictEqual(await count(page, 'dialog[open] img'), 2);
+    assert.match(await page.textContent('#command'), /^phongpipe render sphere --set .* --method gouraud/);
+    assert.ok(!await page.isVisible('#toml'));
+    await page.click('dialog form button');
+    await screenshot(page, 'methods');
+    await close();
+  });
+  await attempt('a page of verified scenes', async () => {
+    const {page, close} = await open(browser, verifyFile);
+    assert.strictEqual(await rows(page), 2);
+    assert.strictEqual(await count(page, '#scatter .front'), 0);
+    await page.locator('tbody button').first().click();
+    assert.strictEqual(await count(page, 'dialog[open] img'), 3);
+    await page.click('dialog form button');
+    await screenshot(page, 'verify');
+    await close();
+  });
+  await attempt('prints on paper without controls', async () => {
+    const {page, close} = await open(browser, pageFile, {colorScheme: 'dark'});
+    await page.emulateMedia({media: 'print'});
+    assert.ok(!await page.isVisible('#csv'));
+    assert.ok(await page.isVisible('tbody tr'));
+    const back = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+    assert.strictEqual(back, 'rgb(255, 255, 255)');
+    assert.ok((await page.pdf()).length > 1000);
     await close();
   });
   await attempt('without JavaScript it says so, below its summary', async () => {
