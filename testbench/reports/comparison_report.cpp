@@ -149,8 +149,7 @@ std::vector<std::string> summary_of(const Comparison& comparison) {
   return {
       fmt::format("{} methods on {}: {} triangles, {} pixels shaded.", comparison.methods.size(),
                   comparison.scene, comparison.triangles, comparison.pixels),
-      fmt::format("{} render the scene, {} are refused.", comparison.methods.size() - refused,
-                  refused),
+      fmt::format("{} render the scene, {} refused.", comparison.methods.size() - refused, refused),
       fmt::format("Least error for their time: {}.", fmt::join(best, "; "))};
 }
 
@@ -285,6 +284,7 @@ void write_comparison_page(const Comparison& comparison, const std::string& rend
   page.summary = summary_of(comparison);
   page.x = "ns_per_pixel";
   page.y = "max_lsb";
+  page.logarithmic = true;
   page.details = comparison_text(comparison);
   const auto add_column = [&page](std::string_view name, std::string_view meaning,
                                   PageColumn::Kind kind) {

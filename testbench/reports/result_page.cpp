@@ -162,10 +162,11 @@ std::string json_pictures(const PageContent& content) {
 
 std::string json_data(const PageContent& content) {
   return fmt::format(
-      "{{\"title\":{},\"row\":{},\"rows\":{},\"alternatives\":{},\"x\":{},\"y\":{},\n"
+      "{{\"title\":{},\"row\":{},\"rows\":{},\"alternatives\":{},\"logarithmic\":{},\"x\":{},\"y\":"
+      "{},\n"
       "\"columns\":{},\n\"commands\":{},\n{}}}",
       json_text(content.title), json_text(content.row), content.rows.size(), content.alternatives,
-      json_text(content.x), json_text(content.y), json_columns(content),
+      content.logarithmic, json_text(content.x), json_text(content.y), json_columns(content),
       json_commands(content.commands), json_pictures(content));
 }
 

@@ -40,6 +40,7 @@ struct PageContent {
   std::vector<std::vector<Cell>> rows;
   std::vector<std::string> commands;  // of each row, to see it again, or empty; or none at all
   std::map<std::size_t, std::vector<PagePicture>> pictures;  // by row
+  bool logarithmic = false;                                  // both axes at first
   bool alternatives = true;  // rows compete, so that there is a front
   std::string x, y;          // metrics that are shown first
   std::string details;       // a text with lines of its own, shown on demand; or empty

@@ -108,42 +108,45 @@
   const axisText = (column) => column.name + (column.unit ? `, ${column.unit}` : '') +
       (column.better === 'neither' ? '' : ` (${column.better} is better)`);
 
+  // A scale, with `place`, which gives where a value lies, and `edge`: on a logarithmic axis, what is
+  // below it lies on the edge.
   function scaleFor(column, logarithmic, rows, range) {
     const values = rows.map((row) => column.values[row]);
-    let [low, high] = values.length > 0 ? d3.extent(values) : [1, 10];
-    if (logarithmic) {
-      if (low === high) [low, high] = [low / 2, high * 2];
-      const room = Math.pow(high / low, 0.04);
-      return d3.scaleLog().domain([low / room, high * room]).range(range);
+    const [low, high] = values.length > 0 ? d3.extent(values) : [0, 1];
+    if (!logarithmic || high <= 0) {
+      const room = (high - low) * 0.05 || Math.abs(low) * 0.5 || 1;
+      const scale = d3.scaleLinear().domain([low - room, high + room]).range(range);
+      return {scale, place: scale, edge: null, logarithmic: false};
     }
-    const room = (high - low) * 0.05 || Math.abs(low) * 0.5 || 1;
-    return d3.scaleLinear().domain([low - room, high + room]).range(range);
+    const span = 1e5;
+    const edge = low < high / span ? high / span : null;
+    const from = edge === null ? low : d3.min(values.filter((value) => value >= edge)) / 2;
+    const room = from === high ? 2 : Math.pow(high / from, 0.04);
+    const scale = d3.scaleLog().domain([from / room, high * room]).range(range);
+    const place = (value) => edge !== null && value < edge ? range[0] : scale(value);
+    return {scale, place, edge, logarithmic: true};
   }
 
-  // A logarithmic axis of less than a decade has too few powers of ten to be marked by them alone.
-  function drawAxis(axis, scale, logarithmic, ticks) {
+  // A logarithmic axis is marked at powers of ten, or as any other where it has few of them.
+  function drawAxis(axis, {scale, logarithmic}, ticks) {
     axis.ticks(ticks).tickSizeOuter(0);
     if (!logarithmic) return axis;
     const [low, high] = scale.domain();
-    const few = 20;
-    if (high / low < few) axis.tickValues(d3.ticks(low, high, ticks));
-    return axis.tickFormat((value) => few > high / low || Number.isInteger(Math.log10(value))
-        ? String(Number(value.toPrecision(6))) : '');
+    const few = 20, exact = (value) => String(Number(value.toPrecision(6)));
+    if (high / low < few) return axis.tickValues(d3.ticks(low, high, ticks)).tickFormat(exact);
+    return axis.tickFormat((value) => Number.isInteger(Math.log10(value)) ? exact(value) : '');
   }
 
   function drawScatter() {
     const width = scatter.node().clientWidth, height = scatter.node().clientHeight;
-    const logX = $('log-x').checked, logY = $('log-y').checked;
     const measured = (row) => xColumn.values[row] !== null && yColumn.values[row] !== null;
-    const usable = (row) => measured(row) && (!logX || xColumn.values[row] > 0) &&
-        (!logY || yColumn.values[row] > 0);
-    const drawable = all.filter(usable);
-    const x = scaleFor(xColumn, logX, drawable, [margin.left, width - margin.right]);
-    const y = scaleFor(yColumn, logY, drawable, [height - margin.bottom, margin.top]);
+    const drawable = all.filter(measured);
+    const x = scaleFor(xColumn, $('log-x').checked, drawable, [margin.left, width - margin.right]);
+    const y = scaleFor(yColumn, $('log-y').checked, drawable, [height - margin.bottom, margin.top]);
     const bottom = height - margin.bottom;
 
-    const across = drawAxis(d3.axisBottom(x), x, logX, Math.max(3, width / 110));
-    const up = drawAxis(d3.axisLeft(y), y, logY, 6);
+    const across = drawAxis(d3.axisBottom(x.scale), x, Math.max(3, Math.floor(width / 110)));
+    const up = drawAxis(d3.axisLeft(y.scale), y, 6);
     axes.html('');
     axes.append('g').attr('transform', `translate(0,${bottom})`).call(across);
     axes.append('g').attr('transform', `translate(${margin.left},0)`).call(up);
@@ -154,10 +157,11 @@
 
     const onFront = new Set(front);
     const classOf = (row) => onFront.has(row) ? 'front' : hasPassed(row) ? 'passed' : 'failed';
-    const shown = kept.filter(usable);
+    const shown = kept.filter(measured);
     // The front is drawn last, so that nothing covers it.
     shown.sort((i, j) => onFront.has(i) - onFront.has(j) || i - j);
-    placeOf = new Map(shown.map((row) => [row, [x(xColumn.values[row]), y(yColumn.values[row])]]));
+    placeOf = new Map(shown.map((row) => [row, [x.place(xColumn.values[row]),
+                                                y.place(yColumn.values[row])]]));
     tree = d3.quadtree().x((row) => placeOf.get(row)[0]).y((row) => placeOf.get(row)[1])
         .addAll(shown);
     order = shown.slice().sort((i, j) => placeOf.get(i)[0] - placeOf.get(j)[0] || i - j);
@@ -168,14 +172,13 @@
         .attr('tabindex', -1).attr('role', 'button').order();
     if (order.length > 0) letTabReach(order.find((row) => onFront.has(row)) || order[0]);
 
-    const corners = front.filter(usable).map((row) => placeOf.get(row));
+    const corners = front.map((row) => placeOf.get(row));
     steps.attr('d', corners.length > 1 ? d3.line().curve(d3.curveStepAfter)(corners) : null);
     ring.attr('display', 'none');
     drawLabels(width);
 
     const unmeasured = d3.nest().key(outcomeOf).entries(kept.filter((row) => !measured(row)))
         .map(({key, values}) => `${numberText(values.length)} ${key.replace('_', ' ')}`);
-    const hidden = kept.filter((row) => measured(row) && !usable(row)).length;
     const sentences = [];
     if (!data.alternatives) {
       sentences.push(`No front: one ${data.row} cannot take the place of another.`);
@@ -188,8 +191,11 @@
     if (unmeasured.length > 0) {
       sentences.push(`Not drawn, for they have no such value: ${unmeasured.join(', ')}.`);
     }
-    if (hidden > 0) {
-      sentences.push(`Not drawn, for a logarithmic axis has no 0: ${numberText(hidden)}.`);
+    for (const [{edge}, column, where] of [[x, xColumn, 'left'], [y, yColumn, 'lower']]) {
+      if (edge === null) continue;
+      const count = shown.filter((row) => column.values[row] < edge).length;
+      sentences.push(`On the ${where} edge, for they are below ${numberText(edge)} or 0: ` +
+          `${numberText(count)}.`);
     }
     $('scatter-text').textContent = sentences.join(' ');
   }
@@ -200,20 +206,25 @@
     labels.html('');
     const most = 60;
     if (!naming || data.rows > most) return;
-    const taken = [];
-    const letters = 6.2, high = 12;
+    const reach = 5, letters = 6.2, high = 12, apart = 8;
+    const taken = order.map((row) => placeOf.get(row))
+        .map(([x, y]) => [x - reach, y - reach, x + reach, y + reach]);
     for (const row of order.slice().sort((i, j) => front.includes(j) - front.includes(i))) {
       const name = naming.values[row];
       if (name === null) continue;
       const [x, y] = placeOf.get(row);
       const wide = letters * name.length;
-      const left = x + 8 + wide > width ? x - 8 - wide : x + 8;
-      const box = [left, y - high / 2, left + wide, y + high / 2];
-      const meets = (other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] &&
-          other[1] < box[3];
-      if (taken.some(meets)) continue;
-      taken.push(box);
-      labels.append('text').attr('class', 'label').attr('x', left).attr('y', y + 4).text(name);
+      // To the right, the left, above, below.
+      const boxes = [[x + apart, y - high / 2], [x - apart - wide, y - high / 2],
+                     [x - wide / 2, y - apart - high], [x - wide / 2, y + apart]]
+          .map(([left, top]) => [left, top, left + wide, top + high]);
+      const meets = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+      const free = boxes.find((box) => box[0] > margin.left && box[2] < width &&
+          !taken.some((other) => meets(box, other)));
+      if (!free) continue;
+      taken.push(free);
+      labels.append('text').attr('class', 'label').attr('x', free[0]).attr('y', free[1] + high - 2)
+          .text(name);
     }
   }
 
@@ -345,7 +356,7 @@
 
   // ---- Parallel coordinates -------------------------------------------------------------------
 
-  const plane = {height: 300, top: 40, bottom: 34, side: 60, least: 104};
+  const plane = {height: 300, top: 40, bottom: 34, left: 110, right: 60, least: 104};
   const inner = plane.height - plane.top - plane.bottom;
   const canvas = document.querySelector('#parallel canvas');
   const lines = d3.select('#parallel svg');
@@ -386,9 +397,9 @@
   function drawParallel() {
     dimensions = [...varied, ...new Set([xColumn, yColumn])].map(dimensionOf);
     const width = Math.max($('parallel').clientWidth,
-                           2 * plane.side + (dimensions.length - 1) * plane.least);
-    const between = (width - 2 * plane.side) / Math.max(dimensions.length - 1, 1);
-    dimensions.forEach((dimension, i) => { dimension.x = plane.side + i * between; });
+                           plane.left + plane.right + (dimensions.length - 1) * plane.least);
+    const between = (width - plane.left - plane.right) / Math.max(dimensions.length - 1, 1);
+    dimensions.forEach((dimension, i) => { dimension.x = plane.left + i * between; });
     d3.select('#parallel-inner').style('width', width + 'px').style('height', plane.height + 'px');
     lines.attr('width', width).attr('height', plane.height).html('');
     const dense = window.devicePixelRatio || 1;
@@ -408,7 +419,7 @@
     const title = axis.append('text').attr('class', 'title').attr('text-anchor', 'middle')
         .attr('y', 18).text(column.short);
     const wide = title.node().getComputedTextLength();
-    const room = Math.min(between, 2 * plane.side) - 6;
+    const room = Math.min(between, 2 * plane.right) - 6;
     if (wide > room) title.attr('textLength', room).attr('lengthAdjust', 'spacingAndGlyphs');
     axis.append('title').text(column.name + (column.meaning ? ': ' + column.meaning : ''));
     if (column.gaps) {
@@ -515,7 +526,7 @@
     const head = document.createElement('tr');
     const number = document.createElement('th');
     number.scope = 'col';
-    number.textContent = data.row;
+    number.textContent = 'no.';
     head.append(number);
     for (const column of shownColumns) {
       const cell = document.createElement('th'), button = document.createElement('button');
@@ -684,6 +695,7 @@
   function begin() {
     document.querySelector('main').hidden = false;
     fillSelects();
+    $('log-x').checked = $('log-y').checked = data.logarithmic;
     fillLegend();
     fillList(document.querySelector('#common dl'), columns.filter((column) =>
         !column.varies && column.first !== null && column.first !== '')

@@ -12,7 +12,8 @@ TEST_F(Program, HelpHasAnExampleAtEachLevel) {
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"verify", "--help"},
                                                     {"render", "--help"},
-                                                    {"compare", "--help"}}) {
+                                                    {"compare", "--help"},
+                                                    {"report", "--help"}}) {
     const ProcessOutput output = run(arguments);
     EXPECT_EQ(output.status, 0);
     EXPECT_NE(output.text.find("Example: phongpipe"), std::string::npos) << output.text;
