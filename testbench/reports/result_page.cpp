@@ -115,6 +115,7 @@ std::string json_columns(const PageContent& content) {
 std::string json_commands(const std::vector<std::string>& commands) {
   std::vector<std::vector<std::string>> columns;
   for (std::size_t row = 0; row < commands.size(); ++row) {
+    if (commands[row].empty()) continue;
     std::size_t place = 0;
     for (const std::string_view word : split(commands[row], ' ')) {
       if (place == columns.size()) columns.emplace_back(commands.size(), "null");

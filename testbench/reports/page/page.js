@@ -194,8 +194,7 @@
     for (const [{edge}, column, where] of [[x, xColumn, 'left'], [y, yColumn, 'lower']]) {
       if (edge === null) continue;
       const count = shown.filter((row) => column.values[row] < edge).length;
-      sentences.push(`On the ${where} edge, for they are below ${numberText(edge)} or 0: ` +
-          `${numberText(count)}.`);
+      sentences.push(`${numberText(count)} on the ${where} edge: below ${numberText(edge)}.`);
     }
     $('scatter-text').textContent = sentences.join(' ');
   }
@@ -220,7 +219,7 @@
           .map(([left, top]) => [left, top, left + wide, top + high]);
       const meets = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
       const free = boxes.find((box) => box[0] > margin.left && box[2] < width &&
-          !taken.some((other) => meets(box, other)));
+          box[3] < scatter.node().clientHeight - margin.bottom + high / 2 && !taken.some((other) => meets(box, other)));
       if (!free) continue;
       taken.push(free);
       labels.append('text').attr('class', 'label').attr('x', free[0]).attr('y', free[1] + high - 2)
