@@ -29,6 +29,9 @@ npm install --prefix "$work" --no-audit --no-fund --silent playwright-core
 "$program" report "$work/sweep.db" -o "$work/sweep.html" >/dev/null
 python3 testbench/tests/reports/many_runs.py "$work/sweep.db" "$work/many.db"
 "$program" report "$work/many.db" -o "$work/many.html" >/dev/null
+cp "$work/sweep.db" "$work/crashed.db"
+python3 testbench/tests/reports/crashed_runs.py "$work/crashed.db"
+"$program" report "$work/crashed.db" -o "$work/crashed.html" >/dev/null
 # A scene with a hostile name, and a folder for the / in it.
 mkdir "$work/<"
 cp testbench/scenes/sphere.toml "$work/</script><b>x.toml"
@@ -40,8 +43,8 @@ small=(--set scene.image.width=96 --set scene.image.height=96)
 "$program" verify sphere torus "${small[@]}" --budget 1000 --out "$work" >/dev/null
 
 NODE_PATH=$work/node_modules node testbench/tests/reports/page_test.cjs \
-  "$work/sweep.html" "$work/many.html" "$work/failed.html" "$work/sphere-methods.html" \
-  "$work/verify.html" "$shots"
+  "$work/sweep.html" "$work/many.html" "$work/failed.html" "$work/crashed.html" \
+  "$work/sphere-methods.html" "$work/verify.html" "$shots"
 
 # The hardware that the page saves is the hardware of the run's command.
 "$program" verify sphere --hardware "$shots/run.toml" --set scene.image.width=96 \

@@ -59,8 +59,10 @@
   // ---- What is chosen -------------------------------------------------------------------------
 
   const filters = new Map();  // from the name of a column to a function that tells what is kept
-  let xColumn = columnOf.get(data.x) || metrics[0];
-  let yColumn = columnOf.get(data.y) || metrics[1] || metrics[0];
+  let xColumn = metrics.find((column) => column.name === data.x) || metrics[0];
+  let yColumn = metrics.find((column) => column.name === data.y) || metrics[1] || metrics[0];
+  // The two, or one if they are the same, or none if no run has a result.
+  const chosenMetrics = () => [...new Set([xColumn, yColumn])].filter((column) => column);
   let kept = all;
   let front = [];
   let sorting = {name: null, ascending: true};
@@ -170,7 +172,7 @@
         .attr('d', (row) => symbols[classOf(row)])
         .attr('transform', (row) => `translate(${placeOf.get(row)})`)
         .attr('tabindex', -1).attr('role', 'button').order();
-    if (order.length > 0) letTabReach(order.find((row) => onFront.has(row)) || order[0]);
+    if (order.length > 0) letTabReach(order.find((row) => onFront.has(row)) ?? order[0]);
 
     const corners = front.map((row) => placeOf.get(row));
     steps.attr('d', corners.length > 1 ? d3.line().curve(d3.curveStepAfter)(corners) : null);
@@ -242,7 +244,7 @@
   // What tells a run from the others.
   function describe(row) {
     const parts = varied.map((column) => [column.short, withUnit(column, column.values[row])]);
-    for (const column of new Set([xColumn, yColumn])) {
+    for (const column of chosenMetrics()) {
       parts.push([column.name, withUnit(column, column.values[row])]);
     }
     if (outcomes) parts.push(['outcome', outcomeOf(row).replace('_', ' ')]);
@@ -394,7 +396,7 @@
   }
 
   function drawParallel() {
-    dimensions = [...varied, ...new Set([xColumn, yColumn])].map(dimensionOf);
+    dimensions = [...varied, ...chosenMetrics()].map(dimensionOf);
     const width = Math.max($('parallel').clientWidth,
                            plane.left + plane.right + (dimensions.length - 1) * plane.least);
     const between = (width - plane.left - plane.right) / Math.max(dimensions.length - 1, 1);
@@ -513,7 +515,7 @@
 
   function tableColumns() {
     if ($('all-columns').checked) return columns.filter((column) => column.varies);
-    const result = [...varied, ...new Set([xColumn, yColumn])];
+    const result = [...varied, ...chosenMetrics()];
     if (outcomes && outcomes.varies) result.push(outcomes);
     const message = columnOf.get('message');
     if (message && message.varies) result.push(message);
@@ -672,10 +674,10 @@
   function update() {
     const tests = [...filters.values()];
     kept = tests.length === 0 ? all : all.filter((row) => tests.every((test) => test(row)));
-    front = frontOf(kept, xColumn, yColumn);
+    front = metrics.length > 0 ? frontOf(kept, xColumn, yColumn) : [];
     rowsShown = rowsAtOnce;
     $('clear').disabled = tests.length === 0;
-    drawScatter();
+    if (metrics.length > 0) drawScatter();
     drawLines();
     drawTable();
   }
@@ -693,9 +695,12 @@
 
   function begin() {
     document.querySelector('main').hidden = false;
-    fillSelects();
-    $('log-x').checked = $('log-y').checked = data.logarithmic;
-    fillLegend();
+    document.querySelector('main section').hidden = metrics.length === 0;
+    if (metrics.length > 0) {
+      $('log-x').checked = $('log-y').checked = data.logarithmic;
+      fillSelects();
+      fillLegend();
+    }
     fillList(document.querySelector('#common dl'), columns.filter((column) =>
         !column.varies && column.first !== null && column.first !== '')
         .map((column) => [column.name, withUnit(column, column.first)]));
@@ -729,9 +734,5 @@
     });
   }
 
-  if (metrics.length > 0) {
-    begin();
-  } else {
-    $('notes').append('There is no measurement to draw: no run has a result.');
-  }
+  begin();
 })();

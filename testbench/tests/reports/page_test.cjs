@@ -1,16 +1,17 @@
 // Tests pages of results in headless Chromium:
-// node page_test.cjs PAGE LARGE-PAGE FAILED-PAGE METHODS-PAGE VERIFY-PAGE [FOLDER]
+// node page_test.cjs PAGE LARGE-PAGE FAILED-PAGE CRASHED-PAGE METHODS-PAGE VERIFY-PAGE [FOLDER]
 // PAGE has 15 runs: rom_address_bits 5 to 9, of which 5 is refused, by diffuse_fraction_bits 4, 8,
 // 16. LARGE-PAGE has 10,000. FAILED-PAGE has 2 runs that failed and 2 that passed, of a scene with
-// a hostile name. METHODS-PAGE is of `compare`, VERIFY-PAGE of `verify` for 2 scenes. Screenshots go
-// to FOLDER, if it is given.
+// a hostile name; those of CRASHED-PAGE all crashed. METHODS-PAGE is of `compare`, VERIFY-PAGE of
+// `verify` for 2 scenes. Screenshots go to FOLDER, if it is given.
 'use strict';
 const assert = require('assert');
 const fs = require('fs');
 const path = require('path');
 const {chromium} = require('playwright-core');
 
-const [pageFile, largeFile, failedFile, methodsFile, verifyFile, folder] = process.argv.slice(2);
+const [pageFile, largeFile, failedFile, crashedFile, methodsFile, verifyFile, folder] =
+    process.argv.slice(2);
 const address = (file) => 'file://' + path.resolve(file);
 
 // Opens a page that may ask for nothing but itself, and may report no error.
@@ -231,6 +232,15 @@ async function main() {
     assert.match(await page.textContent('#command'), /<\/script><b>x/);
     await close();
   });
+  await attempt('runs without any result are in the table', async () => {
+    const {page, close} = await open(browser, crashedFile);
+    assert.match(await page.textContent('#summary'), /0 passed, 0 failed, 0 refused, 15 crashed/);
+    assert.ok(!await page.isVisible('#scatter'));
+    assert.strictEqual(await rows(page), 15);
+    await page.locator('tbody button').first().click();
+    assert.match(await page.textContent('#command'), /^phongpipe verify sphere/);
+    await close();
+  });
   await attempt('a page of methods', async () => {
     const {page, close} = await open(browser, methodsFile);
     assert.match(await page.textContent('#summary'), /Least error for their time: /);
@@ -257,7 +267,8 @@ async function main() {
     const {page, close} = await open(browser, pageFile, {colorScheme: 'dark'});
     await page.emulateMedia({media: 'print'});
     assert.ok(!await page.isVisible('#csv'));
-    assert.ok(await page.isVisible('tbody tr'));
+    assert.ok(await page.isVisible('tbody tr >> nth=0'));
+    await screenshot(page, 'print');
     const back = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
     assert.strictEqual(back, 'rgb(255, 255, 255)');
     assert.ok((await page.pdf()).length > 1000);
