@@ -6,7 +6,6 @@
 #include <set>
 
 #include "model/scene/input_error.h"
-#include "testbench/campaign/pareto.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
 #include "testbench/reports/campaign_page.h"
@@ -22,15 +21,16 @@ struct ReportOptions {
 constexpr std::size_t kMostRuns = 24;                     // with pictures
 constexpr std::size_t kMostBytes = std::size_t{3} << 20;  // of all pictures
 
-// The front with those runs last that are as good as one before.
-std::vector<std::size_t> different_first(const ResultTable& table,
-                                         const std::vector<std::size_t>& front) {
+// The runs on the fronts, with those last that are as good as one before.
+std::vector<std::size_t> different_first(const ResultTable& table) {
   std::vector<std::size_t> first, others;
-  std::set<std::pair<std::string, std::string>> seen;
-  for (const std::size_t row : front) {
-    const bool is_new =
-        seen.emplace(table.text(row, "frame_ns_per_pixel"), table.text(row, "max_lsb")).second;
-    (is_new ? first : others).push_back(row);
+  for (const auto& front : fronts_by_scene(table)) {
+    std::set<std::pair<std::string, std::string>> seen;
+    for (const std::size_t row : front) {
+      const bool is_new =
+          seen.emplace(table.text(row, "frame_ns_per_pixel"), table.text(row, "max_lsb")).second;
+      (is_new ? first : others).push_back(row);
+    }
   }
   first.insert(first.end(), others.begin(), others.end());
   return first;
@@ -57,7 +57,7 @@ std::vector<PagePicture> pictures_of(const ResultTable& table, std::size_t row) 
 
 void add_pictures(PageContent& page, const ResultTable& table) {
   Progress progress;
-  const std::vector<std::size_t> front = different_first(table, front_of(table));
+  const std::vector<std::size_t> front = different_first(table);
   const std::size_t most = std::min(front.size(), kMostRuns);
   std::map<std::string, std::string> missing;  // from a scene to why
   std::size_t bytes = 0, small_enough = 0;
@@ -103,10 +103,11 @@ int report(const ReportOptions& options) {
   }
   const std::string title =
       fmt::format("{}: {}", std::filesystem::path(options.database).stem().string(), store.kind());
-  PageContent page = campaign_page(table, title);
-  add_pictures(page, table);
+  const bool alternatives = store.kind() == "sweep";
+  PageContent page = campaign_page(table, title, alternatives);
+  if (alternatives) add_pictures(page, table);
   write_text(options.output, result_page(page));
-  write_text(chart_file, svg(front_chart(table, title)));
+  write_text(chart_file, svg(front_chart(table, title, alternatives)));
   std::string text;
   for (const std::string& line : page.summary) text += printable(line) + "\n";
   for (const std::string& note : page.notes) text += printable(note) + "\n";

@@ -56,9 +56,10 @@ std::string settings_text(const ResultTable& table, std::size_t row) {
         column.kind == PageColumn::Kind::setting || column.kind == PageColumn::Kind::input;
     if (!chosen) continue;
     const auto differs = [&](const auto& other) { return other[i] != table.rows.front()[i]; };
+    const std::string value = exact_text(table.rows[row][i]);
+    if (value.empty() || column.name == "scene") continue;
     if (std::none_of(table.rows.begin(), table.rows.end(), differs)) continue;
-    texts.push_back(fmt::format("{}={}", column.name.substr(column.name.rfind('.') + 1),
-                                exact_text(table.rows[row][i])));
+    texts.push_back(fmt::format("{}={}", column.name.substr(column.name.rfind('.') + 1), value));
   }
   return fmt::format("{}", fmt::join(texts, " "));
 }
@@ -69,9 +70,7 @@ std::string measures_text(const ResultTable& table, std::size_t row) {
                      *table.number(row, kError), settings.empty() ? "" : " (" + settings + ")");
 }
 
-std::string front_text(const ResultTable& table) {
-  const std::vector<std::size_t> front = front_of(table);
-  if (front.empty()) return "Best trade-offs: none, for no run passed.";
+std::string front_text(const ResultTable& table, const std::vector<std::size_t>& front) {
   std::set<std::string> different;
   for (const std::size_t row : front) {
     different.insert(table.text(row, kTime) + " " + table.text(row, kError));
@@ -82,7 +81,36 @@ std::string front_text(const ResultTable& table) {
                      count_text(different.size()), fastest, measures_text(table, front.back()));
 }
 
-std::vector<std::string> summary_of(const ResultTable& table) {
+// Of each scene that has runs that passed.
+std::vector<std::string> front_texts(const ResultTable& table) {
+  std::vector<std::string> texts;
+  const auto fronts = fronts_by_scene(table);
+  for (const auto& front : fronts) {
+    const std::string scene = fronts.size() > 1 ? table.text(front.front(), "scene") + ": " : "";
+    texts.push_back(scene + front_text(table, front));
+  }
+  if (texts.empty()) texts.emplace_back("Best trade-offs: none, for no run passed.");
+  return texts;
+}
+
+// The runs to look at where there is no front.
+std::string extremes_text(const ResultTable& table) {
+  const auto largest = [&](const char* name) {
+    std::optional<std::size_t> found;
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      const auto value = table.number(row, name);
+      if (value && (!found || *value > *table.number(*found, name))) found = row;
+    }
+    return found;
+  };
+  const auto slowest = largest(kTime), least_accurate = largest(kError);
+  if (!slowest || !least_accurate) return "No run has a result.";
+  return fmt::format("Slowest: {:.2f} ns a pixel ({}). Largest error: {:.2f} LSB ({}).",
+                     *table.number(*slowest, kTime), table.text(*slowest, "scene"),
+                     *table.number(*least_accurate, kError), table.text(*least_accurate, "scene"));
+}
+
+std::vector<std::string> summary_of(const ResultTable& table, bool alternatives) {
   std::map<std::string, std::size_t> outcomes;
   std::set<std::string> scenes;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -98,19 +126,48 @@ std::vector<std::string> summary_of(const ResultTable& table) {
     counts.push_back(fmt::format("{} {}", count_text(count),
                                  outcome == Outcome::timed_out ? "timed out" : name(outcome)));
   }
+  std::vector<std::string> lines =
+      alternatives ? front_texts(table) : std::vector<std::string>{extremes_text(table)};
   const std::size_t runs = table.rows.size();
-  return {fmt::format("{} run{} of {}.", count_text(runs), runs == 1 ? "" : "s",
-                      scenes.size() == 1 ? *scenes.begin()
-                                         : fmt::format("{} scenes", count_text(scenes.size()))),
-          fmt::format("{}.", fmt::join(counts, ", ")), front_text(table)};
+  const std::string of_what =
+      scenes.size() == 1 ? *scenes.begin() : fmt::format("{} scenes", count_text(scenes.size()));
+  lines.insert(lines.begin(),
+               {fmt::format("{} run{} of {}.", count_text(runs), runs == 1 ? "" : "s", of_what),
+                fmt::format("{}.", fmt::join(counts, ", "))});
+  return lines;
 }
 
 }  // namespace
 
-PageContent campaign_page(const ResultTable& table, const std::string& title) {
+std::vector<std::vector<std::size_t>> fronts_by_scene(const ResultTable& table) {
+  // The table in parts, and where their rows are in the whole.
+  std::vector<ResultTable> parts;
+  std::vector<std::vector<std::size_t>> places;
+  std::map<std::string, std::size_t> part_of;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const auto [part, added] = part_of.emplace(table.text(row, "scene"), parts.size());
+    if (added) {
+      parts.push_back({table.columns, {}});
+      places.emplace_back();
+    }
+    parts[part->second].rows.push_back(table.rows[row]);
+    places[part->second].push_back(row);
+  }
+  std::vector<std::vector<std::size_t>> fronts;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    std::vector<std::size_t> front = front_of(parts[part]);
+    for (std::size_t& row : front) row = places[part][row];
+    if (!front.empty()) fronts.push_back(std::move(front));
+  }
+  return fronts;
+}
+
+PageContent campaign_page(const ResultTable& table, const std::string& title, bool alternatives) {
   PageContent page;
   page.title = title;
-  page.summary = summary_of(table);
+  page.summary = summary_of(table, alternatives);
+  page.alternatives = alternatives;
+  page.logarithmic = !alternatives;  // different scenes may differ by orders of magnitude
   page.x = kTime;
   page.y = kError;
   page.rows.resize(table.rows.size());
@@ -148,9 +205,7 @@ PageContent campaign_page(const ResultTable& table, const std::string& title) {
   return page;
 }
 
-Chart front_chart(const ResultTable& table, const std::string& title) {
-  const std::vector<std::size_t> front = front_of(table);
-  const std::set<std::size_t> on_front(front.begin(), front.end());
+Chart front_chart(const ResultTable& table, const std::string& title, bool alternatives) {
   const auto label = [](const char* name) {
     const PageColumn column = page_column(name);
     return fmt::format("{}, {}", column.meaning, column.unit);
@@ -162,13 +217,22 @@ Chart front_chart(const ResultTable& table, const std::string& title) {
   chart.title = title;
   chart.x_label = label(kTime);
   chart.y_label = label(kError);
-  PlotSeries others = {"other runs that passed", {}, false}, best = {"Pareto front", {}};
+  std::set<std::size_t> on_front;
+  const auto fronts =
+      alternatives ? fronts_by_scene(table) : std::vector<std::vector<std::size_t>>{};
+  for (const auto& front : fronts) {
+    PlotSeries series = {"Pareto front", {}};
+    if (fronts.size() > 1) series.name += " of " + table.text(front.front(), "scene");
+    for (const std::size_t row : front) series.points.push_back(point(row));
+    on_front.insert(front.begin(), front.end());
+    chart.series.push_back(std::move(series));
+  }
+  PlotSeries others = {fronts.empty() ? "runs that passed" : "other runs that passed", {}, false};
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const bool passed = table.text(row, "outcome") == "passed";
     if (passed && on_front.count(row) == 0) others.points.push_back(point(row));
   }
-  for (const std::size_t row : front) best.points.push_back(point(row));
-  chart.series = {std::move(best), std::move(others)};
+  chart.series.push_back(std::move(others));
   return chart;
 }
 

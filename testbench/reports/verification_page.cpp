@@ -35,10 +35,9 @@ std::string VerificationPage::text() const {
   table.columns.erase(table.columns.begin() + seconds);
   for (auto& row : table.rows) row.erase(row.begin() + seconds);
   PageContent page = campaign_page(
-      table, runs_.size() == 1 ? runs_.front().scene + ": verification" : "Verification");
+      table, runs_.size() == 1 ? runs_.front().scene + ": verification" : "Verification", false);
   page.row = "scene";
-  page.alternatives = false;
-  page.summary.pop_back();  // the front
+  page.summary.pop_back();  // each scene is told of below
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const auto pictures = pictures_.find(table.text(row, "identity"));
     if (pictures != pictures_.end()) page.pictures[row] = pictures->second;

@@ -34,6 +34,10 @@
   const outcomeOf = (row) => outcomes ? outcomes.values[row] : 'passed';
   const hasPassed = (row) => outcomeOf(row) === 'passed';
 
+  // Only runs of one scene compete.
+  const scenes = columnOf.get('scene');
+  const sceneOf = (row) => scenes ? scenes.values[row] : '';
+
   const words = data.commands.map(unpacked);
   const commandOf = (row) => words.map((column) => column[row]).filter((word) => word !== null)
       .join(' ');
@@ -64,7 +68,8 @@
   // The two, or one if they are the same, or none if no run has a result.
   const chosenMetrics = () => [...new Set([xColumn, yColumn])].filter((column) => column);
   let kept = all;
-  let front = [];
+  let fronts = [];  // of each scene
+  let front = [];   // all of them
   let sorting = {name: null, ascending: true};
   const rowsAtOnce = 200;
   let rowsShown = rowsAtOnce;
@@ -174,8 +179,9 @@
         .attr('tabindex', -1).attr('role', 'button').order();
     if (order.length > 0) letTabReach(order.find((row) => onFront.has(row)) ?? order[0]);
 
-    const corners = front.map((row) => placeOf.get(row));
-    steps.attr('d', corners.length > 1 ? d3.line().curve(d3.curveStepAfter)(corners) : null);
+    const line = d3.line().curve(d3.curveStepAfter);
+    steps.attr('d', fronts.filter((rows) => rows.length > 1)
+        .map((rows) => line(rows.map((row) => placeOf.get(row)))).join(''));
     ring.attr('display', 'none');
     drawLabels(width);
 
@@ -207,7 +213,7 @@
     labels.html('');
     const most = 60;
     if (!naming || data.rows > most) return;
-    const reach = 5, letters = 6.2, high = 12, apart = 8;
+    const reach = 5, letters = 6.9, high = 12, apart = 8;
     const taken = order.map((row) => placeOf.get(row))
         .map(([x, y]) => [x - reach, y - reach, x + reach, y + reach]);
     for (const row of order.slice().sort((i, j) => front.includes(j) - front.includes(i))) {
@@ -318,7 +324,7 @@
     const entries = [['passed', 'passed']];
     if (data.alternatives) entries.unshift(['front', 'Pareto front']);
     const measured = (row) => metrics.some((column) => column.values[row] !== null);
-    if (all.some((row) => !hasPassed(row) && measured(row))) entries.push(['failed', 'failed']);
+    if (all.some((row) => !hasPassed(row) && measured(row))) entries.push(['failed', 'not passed']);
     const legend = d3.select('#legend');
     for (const [name, meaning] of entries) {
       legend.append('svg').attr('viewBox', '-7 -7 14 14').attr('aria-hidden', 'true')
@@ -390,7 +396,7 @@
     }
     const names = dimension.scale.domain();
     const each = Math.ceil(names.length / most);
-    const letters = 14;
+    const letters = 12;
     return axis.tickValues(names.filter((name, i) => i % each === 0)).tickFormat((name) =>
         name.length > letters ? '…' + name.slice(1 - letters) : name);
   }
@@ -674,7 +680,10 @@
   function update() {
     const tests = [...filters.values()];
     kept = tests.length === 0 ? all : all.filter((row) => tests.every((test) => test(row)));
-    front = metrics.length > 0 ? frontOf(kept, xColumn, yColumn) : [];
+    fronts = metrics.length > 0
+        ? d3.nest().key(sceneOf).entries(kept).map(({values}) => frontOf(values, xColumn, yColumn))
+        : [];
+    front = d3.merge(fronts);
     rowsShown = rowsAtOnce;
     $('clear').disabled = tests.length === 0;
     if (metrics.length > 0) drawScatter();

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
 
 #include "testbench/campaign/pareto.h"
 #include "testbench/tests/commands/program.h"
@@ -83,6 +84,35 @@ TEST_F(Reports, ShowsEveryRunWithPicturesOfTheFront) {
   }
   EXPECT_EQ(read_whole_file(file("a.svg")).rfind("<svg", 0), 0U);
   EXPECT_NE(read_whole_file(file("a.svg")).find("Pareto front"), std::string::npos);
+}
+
+TEST_F(Reports, EachSceneHasItsFrontAndARegressionHasNone) {
+  ASSERT_EQ(run({"sweep", "sphere", "torus", "--vary", "rom_address_bits=6:9", "--vary",
+                 "budget=1000", "--rtl", "off", "--db", file("a.db")})
+                .status,
+            0);
+  ProcessOutput output = report();
+  ASSERT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(output.text.find("\nsphere: Best"), std::string::npos) << output.text;
+  EXPECT_NE(output.text.find("\ntorus: Best"), std::string::npos) << output.text;
+  EXPECT_NE(read_whole_file(file("a.svg")).find("Pareto front of torus"), std::string::npos);
+  std::set<std::string> scenes;
+  const ResultTable runs = table();
+  const nlohmann::json page = data("a.html");
+  for (const auto& [row, pictures] : page["pictures"].items()) {
+    scenes.insert(runs.text(std::stoul(row), "scene"));
+  }
+  EXPECT_EQ(scenes, (std::set<std::string>{"sphere", "torus"}));
+
+  fs::remove(file("a.db"));
+  ASSERT_EQ(run({"regress", "--random", "--count", "8", "--seed", "7", "--rtl", "off", "--db",
+                 file("a.db")})
+                .status,
+            0);
+  output = report();
+  ASSERT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(output.text.find("Slowest: "), std::string::npos) << output.text;
+  EXPECT_EQ(data("a.html")["alternatives"], false);
 }
 
 TEST_F(Reports, AreTheSameEachTime) {

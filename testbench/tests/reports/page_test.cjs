@@ -225,7 +225,7 @@ async function main() {
     const {page, close} = await open(browser, failedFile);
     assert.strictEqual(await count(page, '#scatter .failed'), 2);
     assert.strictEqual(await count(page, '#scatter .point'), 4);
-    assert.match(await page.textContent('#legend'), /failed/);
+    assert.match(await page.textContent('#legend'), /not passed/);
     assert.strictEqual(await count(page, 'b'), 0);
     assert.match(await page.textContent('#summary'), /<\/script><b>x/);
     await page.locator('tbody button').first().click();
