@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # test_pages.sh [FOLDER]: makes a report of a small sweep and one of 10,000 runs, and tests the pages in
 # headless Chromium. Screenshots stay in FOLDER, if it is given. Installs what is missing of Chromium,
-# Node and playwright-core.
+# Node and playwright-core; NODE_PATH may tell where the latter is.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 missing=()
@@ -21,7 +21,9 @@ trap 'rm -rf "$work"' EXIT
 trap 'echo "test_pages.sh: the command in line $LINENO failed" >&2' ERR
 shots=${1:-$work}
 mkdir -p "$shots"
-npm install --prefix "$work" --no-audit --no-fund --silent playwright-core
+export NODE_PATH=${NODE_PATH:-$work/node_modules}
+node -e 'require("playwright-core")' 2>/dev/null ||
+  npm install --prefix "$work" --no-audit --no-fund --loglevel error playwright-core >/dev/null
 
 "$program" sweep sphere --set scene.image.width=96 --set scene.image.height=96 \
   --set 'scene.object.0.segments=[12,8]' --vary rom_address_bits=5:9 \
@@ -42,7 +44,7 @@ small=(--set scene.image.width=96 --set scene.image.height=96)
 "$program" compare sphere "${small[@]}" --out "$work" >/dev/null
 "$program" verify sphere torus "${small[@]}" --budget 1000 --out "$work" >/dev/null
 
-NODE_PATH=$work/node_modules node testbench/tests/reports/page_test.cjs \
+node testbench/tests/reports/page_test.cjs \
   "$work/sweep.html" "$work/many.html" "$work/failed.html" "$work/crashed.html" \
   "$work/sphere-methods.html" "$work/verify.html" "$shots"
 
