@@ -6,6 +6,7 @@ packages=(
   verilator yosys iverilog
   libsystemc-dev libcli11-dev libtomlplusplus-dev libassimp-dev libeigen3-dev libfmt-dev
   nlohmann-json3-dev libstb-dev zlib1g-dev libsqlitecpp-dev libmuparser-dev libpugixml-dev
+  node-d3
   libgtest-dev librapidcheck-dev libbenchmark-dev
 )
 if [ "${1:-}" = ci ]; then packages+=(clang-format clang-tidy); fi

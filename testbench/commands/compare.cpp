@@ -6,6 +6,7 @@
 #include "model/scene/input_error.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
+#include "testbench/cosim/run.h"
 #include "testbench/methods/curves.h"
 #include "testbench/methods/operation_time.h"
 #include "testbench/reports/comparison_report.h"
@@ -57,6 +58,18 @@ void write_curves(const Options& options, Progress& progress) {
   }
 }
 
+// The command that renders a scene with the same hardware.
+std::string render_command(const Options& options, const std::string& scene) {
+  std::string text = "phongpipe render " + shell_word(scene);
+  const HardwareOptions& hardware = options.hardware;
+  if (hardware.hardware != HardwareOptions().hardware) {
+    text += " --hardware " + shell_word(hardware.hardware);
+  }
+  for (const std::string& setting : hardware.overrides) text += " --set " + shell_word(setting);
+  if (options.power) text += fmt::format(" --power {}", name(*options.power));
+  return text;
+}
+
 int compare_methods(const Options& options) {
   if (options.scenes.empty() && options.curve.empty() && !options.microvax) {
     throw InputError("nothing to compare: give scenes, --curve NAME or --microvax");
@@ -84,7 +97,9 @@ int compare_methods(const Options& options) {
     results.push_back(comparison_json(comparison));
     const std::string rows = comparison_csv(comparison);
     csv += csv.empty() ? rows : rows.substr(rows.find('\n') + 1);
-    if (!options.out.empty()) write_comparison_page(comparison, options.out);
+    if (!options.out.empty()) {
+      write_comparison_page(comparison, render_command(options, comparison.scene), options.out);
+    }
   }
   write_output(options.json, results.dump(2) + "\n");
   write_output(options.csv, csv);

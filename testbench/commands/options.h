@@ -28,6 +28,7 @@ void add_export(CLI::App& application, Run& run);
 void add_merge(CLI::App& application, Run& run);
 void add_regress(CLI::App& application, Run& run);
 void add_render(CLI::App& application, Run& run);
+void add_report(CLI::App& application, Run& run);
 void add_sweep(CLI::App& application, Run& run);
 void add_verify(CLI::App& application, Run& run);
 

@@ -8,6 +8,7 @@
 #include "model/scene/input_error.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
+#include "testbench/reports/verification_page.h"
 #include "testbench/reports/verification_report.h"
 #include "testbench/system/output_file.h"
 #include "testbench/system/terminal.h"
@@ -68,6 +69,7 @@ class Verifier {
       print_or_throw(fmt::format("{} of {} passed\n", passed_, scenes.size()));
     }
     write_output(options_.json, json_text());
+    if (!options_.pictures.empty()) write_text(page_file(), page_.text());
     if (status_ == 0 && passed_ < scenes.size()) status_ = kCheckFailed;
     return status_;
   }
@@ -80,6 +82,7 @@ class Verifier {
           scene, hardware_, options_.verification,
           [&](const std::string& what) { progress_(fmt::format("{}: {}", scene.source, what)); });
       progress_.clear();
+      if (!options_.pictures.empty()) page_.add(request_of(scene), result);
       show(result, name);
       results_.push_back(report_json(result));
       passed_ += result.passed() ? 1 : 0;
@@ -89,6 +92,7 @@ class Verifier {
       const bool input = dynamic_cast<const InputError*>(&error) != nullptr;
       status_ = std::max(status_, input ? kBadInput : kToolFailed);
       fmt::print(stderr, "phongpipe: {}\n", printable(error.what()));
+      if (input) page_.add_refused(request_of(scene), error.what());
       results_.push_back(
           {{"scene", scene.source}, {"passed", false}, {"error", printable(error.what())}});
     }
@@ -107,6 +111,7 @@ class Verifier {
       std::filesystem::create_directories(options_.pictures);
       write_pictures(result, files);
       style.more.push_back(printable(files.back().string()));
+      if (options_.scenes.size() == 1) style.more.push_back(printable(page_file().string()));
     }
     if (options_.json == "-") return;
     print_or_throw(options_.scenes.size() == 1 ? report_text(result, style)
@@ -117,11 +122,17 @@ class Verifier {
   void check_outputs() const {
     check_output(options_.json);
     if (options_.pictures.empty()) return;
-    std::vector<std::filesystem::path> files;
+    std::vector<std::filesystem::path> files = {page_file()};
     for (const std::string& name : names_) {
       for (const auto& file : picture_files(options_.pictures, name)) files.push_back(file);
     }
     phongpipe::check_outputs(options_.pictures, files);
+  }
+
+  std::filesystem::path page_file() const { return options_.pictures / "verify.html"; }
+  RunRequest request_of(const Scene& scene) const {
+    return {scene.source, options_.hardware.hardware, options_.hardware.overrides,
+            options_.verification};
   }
 
   std::string json_text() const {
@@ -132,6 +143,7 @@ class Verifier {
   Hardware hardware_;
   std::vector<std::string> names_;
   Progress progress_;
+  VerificationPage page_;  // filled in if pictures are wanted
   nlohmann::ordered_json results_ = nlohmann::ordered_json::array();
   std::size_t passed_ = 0;
   int status_ = 0;
@@ -158,7 +170,8 @@ void add_verify(CLI::App& application, Run& run) {
       ->type_name("NS")
       ->check(positive_number());
   command
-      ->add_option("--out", options->pictures, "Folder for result, exact Phong and error map (PNG)")
+      ->add_option("--out", options->pictures,
+                   "Folder for result, exact Phong and error map (PNG), and for a page of them")
       ->type_name("DIR");
   command
       ->add_option("--json", options->json,

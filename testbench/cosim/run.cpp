@@ -47,12 +47,28 @@ bool is_plain(char c) {
          std::string_view("_-+=.,:/@%").find(c) != std::string_view::npos;
 }
 
-// A word that a shell takes as it is.
-std::string quoted(const std::string& text) {
-  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
+// The words that a shell makes of a line in which words are as shell_word() gives them.
+std::vector<std::string> shell_words(const std::string& line) {
+  std::vector<std::string> words;
+  bool inside = false, in_quotes = false;  // of a word, of its quotes
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == ' ' && !in_quotes) {
+      inside = false;
+      continue;
+    }
+    if (!inside) words.emplace_back();
+    inside = true;
+    if (c == '\'') {
+      in_quotes = !in_quotes;
+    } else if (c == '\\' && !in_quotes && i + 1 < line.size()) {
+      words.back() += line[++i];
+    } else {
+      words.back() += c;
+    }
+  }
+  if (in_quotes) throw InputError(fmt::format("{}: a quote is not closed", line));
+  return words;
 }
 
 // What of a failed verification is told first.
@@ -147,19 +163,55 @@ void set_key(RunRequest& request, const std::string& key, const std::string& val
   }
 }
 
+std::string shell_word(const std::string& text) {
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
 std::string command_of(const RunRequest& request) {
   const RunRequest none;
-  std::string text = "phongpipe verify " + quoted(request.scene);
-  if (request.hardware != none.hardware) text += " --hardware " + quoted(request.hardware);
-  for (const std::string& setting : request.settings) text += " --set " + quoted(setting);
+  std::string text = "phongpipe verify " + shell_word(request.scene);
+  if (request.hardware != none.hardware) text += " --hardware " + shell_word(request.hardware);
+  for (const std::string& setting : request.settings) text += " --set " + shell_word(setting);
   for (const RunOption& option : run_options()) {
     const std::string value = option.get(request.options);
     if (value != option.get(none.options)) text += fmt::format(" --{} {}", option.name, value);
   }
   if (!request.options.rtl_sources.empty()) {
-    text += " --rtl " + quoted(request.options.rtl_sources.string());
+    text += " --rtl " + shell_word(request.options.rtl_sources.string());
   }
   return text;
+}
+
+RunRequest parse_command(const std::string& command) {
+  const std::vector<std::string> words = shell_words(command);
+  if (words.size() < 3 || words[0] != "phongpipe" || words[1] != "verify") {
+    throw InputError(fmt::format("{}: not a command that verifies a scene", command));
+  }
+  RunRequest request;
+  request.scene = words[2];
+  for (std::size_t i = 3; i < words.size(); i += 2) {
+    if (i + 1 == words.size()) throw InputError(fmt::format("{}: no value", words[i]));
+    const std::string& value = words[i + 1];
+    const auto is_option = [&](const RunOption& option) {
+      return words[i] == fmt::format("--{}", option.name);
+    };
+    const auto option = std::find_if(run_options().begin(), run_options().end(), is_option);
+    if (option != run_options().end()) {
+      option->put(request.options, value);
+    } else if (words[i] == "--hardware") {
+      request.hardware = value;
+    } else if (words[i] == "--set") {
+      request.settings.push_back(value);
+    } else if (words[i] == "--rtl") {
+      request.options.rtl_sources = value;
+    } else {
+      throw InputError(fmt::format("{}: not an option of a run", words[i]));
+    }
+  }
+  return request;
 }
 
 std::string canonical_text(std::uint64_t scene_hash, const Hardware& hardware,

@@ -36,8 +36,13 @@ const std::vector<RunOption>& run_options();
 // Sets `key` of a request: scene, hardware, an option, or any key of --set.
 void set_key(RunRequest& request, const std::string& key, const std::string& value);
 
+// A text as a word of a command line, in quotes where a shell needs them.
+std::string shell_word(const std::string& text);
+
 // The command line that verifies the same: `phongpipe verify …`.
 std::string command_of(const RunRequest& request);
+// Its inverse. Throws InputError if the text is no such command line.
+RunRequest parse_command(const std::string& command);
 
 // What one run may take.
 struct RunLimits {

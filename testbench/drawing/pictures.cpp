@@ -88,7 +88,7 @@ Rgb error_color(double error) {
   return color;
 }
 
-void write_png(const std::filesystem::path& file, const Picture& picture) {
+std::string png(const Picture& picture) {
   // Differences to the row above; trying every filter on each row takes longer than compressing.
   constexpr int kUp = 2;
   stbi_write_force_png_filter = kUp;
@@ -96,7 +96,11 @@ void write_png(const std::filesystem::path& file, const Picture& picture) {
   bytes.reserve(picture.bytes.size() / 4);
   stbi_write_png_to_func(append, &bytes, picture.width, picture.height, picture.channels,
                          picture.bytes.data(), picture.width * picture.channels);
-  write_text(file, bytes);
+  return bytes;
+}
+
+void write_png(const std::filesystem::path& file, const Picture& picture) {
+  write_text(file, png(picture));
 }
 
 void write_pfm(const std::filesystem::path& file, const std::vector<Color>& colors, int width,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "model/fixed/framebuffer.h"
@@ -40,6 +41,8 @@ constexpr double kErrorMapTop = 4;
 constexpr Rgb kUncoveredColor = {12, 40, 24};
 Rgb error_color(double error);
 
+// The bytes of a PNG file.
+std::string png(const Picture& picture);
 // Writes the file as write_text() does.
 void write_png(const std::filesystem::path& file, const Picture& picture);
 // Float RGB, bottom row first, little-endian.

@@ -162,11 +162,12 @@ class Drawing {
         x, y);
   }
 
+  bool has_line(std::size_t i) const { return chart_.lines && chart_.series[i].joined; }
   // Of many lines, one marks every third point, so that two in the same place show different marks.
   bool marked(std::size_t i, std::size_t k) const {
     constexpr std::size_t kMany = 6, kEvery = 3;
     const auto& points = chart_.series[i].points;
-    if (!chart_.lines || chart_.series.size() <= kMany || i % kEvery == k % kEvery) return true;
+    if (!has_line(i) || chart_.series.size() <= kMany || i % kEvery == k % kEvery) return true;
     const bool joined =
         (k > 0 && drawn(points[k - 1])) || (k + 1 < points.size() && drawn(points[k + 1]));
     return !joined || !points[k].label.empty();
@@ -183,7 +184,7 @@ class Drawing {
       }
       joined = shown;
     }
-    if (chart_.lines) add_path(i, path);
+    if (has_line(i)) add_path(i, path);
     const auto& points = chart_.series[i].points;
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (!drawn(points[k]) || !marked(i, k)) continue;
@@ -230,7 +231,7 @@ class Drawing {
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
       const double y = kTop + kLegendRow * (static_cast<double>(i) + 0.5);
       begin_series(i);
-      if (chart_.lines) add_path(i, fmt::format("M{:.1f} {:.1f}h32", x, y));
+      if (has_line(i)) add_path(i, fmt::format("M{:.1f} {:.1f}h32", x, y));
       add_marker(i, x + 16, y);
       out_ += "</g>\n";
       add_text(x + 40, y + 4, "", entry(chart_.series[i]));

@@ -14,13 +14,14 @@ struct PlotPoint {
 
 struct PlotSeries {
   std::string name;
-  std::vector<PlotPoint> points;  // joined in this order
+  std::vector<PlotPoint> points;
+  bool joined = true;  // in this order, if the chart has lines
 };
 
 struct Chart {
   std::string title, x_label, y_label;
   bool log_x = false, log_y = false;
-  bool lines = true;  // join a series' points
+  bool lines = true;  // join the points of each series that wants it
   std::vector<PlotSeries> series;
 };
 

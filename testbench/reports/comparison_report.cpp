@@ -1,15 +1,18 @@
 #include "testbench/reports/comparison_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "testbench/campaign/pareto.h"
 #include "testbench/drawing/pictures.h"
 #include "testbench/methods/curves.h"
 #include "testbench/methods/operation_time.h"
+#include "testbench/reports/result_page.h"
 #include "testbench/system/output_file.h"
 
 namespace phongpipe {
@@ -62,20 +65,6 @@ nlohmann::ordered_json finite_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<') {
-      result += "&lt;";
-    } else if (c == '&') {
-      result += "&amp;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
 Picture error_picture(const MethodResult& result, const Comparison& comparison) {
   Picture picture(comparison.width, comparison.height, 3, kUncoveredColor.data());
   for (std::size_t i = 0; i < result.errors_lsb.size(); ++i) {
@@ -84,6 +73,84 @@ Picture error_picture(const MethodResult& result, const Comparison& comparison) 
     std::copy(color.begin(), color.end(), picture.pixel(i));
   }
   return picture;
+}
+
+using Better = Metric::Better;
+
+// A measure of a method. Those of cost are not filled in for the limit.
+struct MethodColumn {
+  std::string_view name, unit;
+  Better better;
+  std::string_view meaning;
+  bool of_cost;
+  MetricValue (*value)(const MethodResult&, const Comparison&);
+};
+
+OperationCounts of_a_pixel(const MethodResult& r) {
+  return r.costs.pixel + r.costs.combine;
+}
+
+MetricValue count(std::size_t value) {
+  return static_cast<std::int64_t>(value);
+}
+
+constexpr MethodColumn kMethodColumns[] = {
+    {"add", "", Better::less, "additions for a pixel", true,
+     [](const MethodResult& r, const Comparison&) { return count(of_a_pixel(r).add); }},
+    {"multiply", "", Better::less, "multiplications for a pixel", true,
+     [](const MethodResult& r, const Comparison&) { return count(of_a_pixel(r).multiply); }},
+    {"divide", "", Better::less, "divisions for a pixel", true,
+     [](const MethodResult& r, const Comparison&) { return count(of_a_pixel(r).divide); }},
+    {"sqrt", "", Better::less, "√ and 1/√ for a pixel", true,
+     [](const MethodResult& r, const Comparison&) {
+       return count(of_a_pixel(r).sqrt + of_a_pixel(r).rsqrt);
+     }},
+    {"read", "", Better::less, "table reads for a pixel", true,
+     [](const MethodResult& r, const Comparison&) { return count(of_a_pixel(r).read); }},
+    {"clocks_per_pixel", "cycles", Better::less,
+     "on the setup engine's units, setup shared out over the pixels", true,
+     [](const MethodResult& r, const Comparison&) -> MetricValue { return r.clocks_per_pixel; }},
+    {"ns_per_pixel", "ns", Better::less, "the same as time", true,
+     [](const MethodResult& r, const Comparison&) -> MetricValue { return r.ns_per_pixel; }},
+    {"speed_over_phong", "", Better::more, "as software on this machine, exact Phong's being 1",
+     true,
+     [](const MethodResult& r, const Comparison& c) -> MetricValue {
+       return wall_clock_of_phong(c) / r.wall_clock_ns_per_pixel;
+     }},
+    {"max_lsb", "LSB", Better::less, "largest error against exact Phong", false,
+     [](const MethodResult& r, const Comparison&) -> MetricValue { return r.error.largest_lsb; }},
+    {"rms_lsb", "LSB", Better::less, "root of its mean square", false,
+     [](const MethodResult& r, const Comparison&) -> MetricValue { return r.error.rms_lsb(); }},
+    {"seam_lsb", "LSB", Better::less,
+     "largest jump of the error across an edge that two triangles share", false,
+     [](const MethodResult& r, const Comparison&) -> MetricValue { return r.largest_seam_lsb; }},
+};
+
+Cell cell(const MethodColumn& column, const MethodResult& r, const Comparison& comparison) {
+  if (!r.refused.empty() || (column.of_cost && r.is_limit)) return MetricValue();
+  return column.value(r, comparison);
+}
+
+std::vector<std::string> summary_of(const Comparison& comparison) {
+  std::vector<std::optional<ParetoPoint>> points;
+  std::size_t refused = 0;
+  for (const MethodResult& r : comparison.methods) {
+    refused += r.refused.empty() ? 0 : 1;
+    const bool measured = r.refused.empty() && !r.is_limit;
+    points.push_back(measured ? std::make_optional(ParetoPoint{r.ns_per_pixel, r.error.largest_lsb})
+                              : std::nullopt);
+  }
+  std::vector<std::string> best;
+  for (const std::size_t i : pareto_front(points)) {
+    const MethodResult& r = comparison.methods[i];
+    best.push_back(
+        fmt::format("{} {:.2f} ns and {:.2f} LSB", r.name, r.ns_per_pixel, r.error.largest_lsb));
+  }
+  return {
+      fmt::format("{} methods on {}: {} triangles, {} pixels shaded.", comparison.methods.size(),
+                  comparison.scene, comparison.triangles, comparison.pixels),
+      fmt::format("{} render the scene, {} refused.", comparison.methods.size() - refused, refused),
+      fmt::format("Least error for their time: {}.", fmt::join(best, "; "))};
 }
 
 }  // namespace
@@ -173,23 +240,16 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
 }
 
 std::string comparison_csv(const Comparison& comparison) {
-  std::string text =
-      "scene,method,refused,add,multiply,divide,sqrt,read,clocks_per_pixel,ns_per_pixel,"
-      "speed_over_phong,max_lsb,rms_lsb,seam_lsb\n";
-  const double phong = wall_clock_of_phong(comparison);
+  std::string text = "scene,method,refused";
+  for (const MethodColumn& column : kMethodColumns) text += fmt::format(",{}", column.name);
+  text += '\n';
   for (const MethodResult& r : comparison.methods) {
-    if (!r.refused.empty()) {
-      text += fmt::format("{},{},\"{}\",,,,,,,,,,,\n", comparison.scene, r.name, r.refused);
-      continue;
+    text += fmt::format("{},{},{}", comparison.scene, r.name,
+                        r.refused.empty() ? "" : fmt::format("\"{}\"", r.refused));
+    for (const MethodColumn& column : kMethodColumns) {
+      text += "," + exact_text(cell(column, r, comparison));
     }
-    const OperationCounts pixel = r.costs.pixel + r.costs.combine;
-    const std::string cost =
-        r.is_limit ? ",,,,,,,"
-                   : fmt::format("{},{},{},{},{},{},{},{}", pixel.add, pixel.multiply, pixel.divide,
-                                 pixel.sqrt + pixel.rsqrt, pixel.read, r.clocks_per_pixel,
-                                 r.ns_per_pixel, phong / r.wall_clock_ns_per_pixel);
-    text += fmt::format("{},{},,{},{},{},{}\n", comparison.scene, r.name, cost, r.error.largest_lsb,
-                        r.error.rms_lsb(), r.largest_seam_lsb);
+    text += '\n';
   }
   return text;
 }
@@ -214,36 +274,50 @@ Chart accuracy_against_time(const Comparison& comparison) {
   return chart;
 }
 
-void write_comparison_page(const Comparison& comparison, const std::filesystem::path& folder) {
+void write_comparison_page(const Comparison& comparison, const std::string& render,
+                           const std::filesystem::path& folder) {
   const std::string scene = name_of(comparison);
   std::filesystem::create_directories(folder);
-  std::string page = fmt::format(
-      "<!doctype html><meta charset=\"utf-8\"><title>{0}: shading methods</title>\n"
-      "<style>body{{font:14px sans-serif;margin:2em}}pre{{overflow-x:auto}}"
-      "figure{{display:inline-block;margin:4px;vertical-align:top;width:258px}}"
-      "img{{width:256px;image-rendering:pixelated;display:block}}</style>\n"
-      "<h1>{0}: every shading method, its accuracy and its time</h1>\n<pre>{1}</pre>\n{2}\n"
-      "<p>Each method and its error: black 0, blue 1, red 2, yellow 3, white 4 LSB and more.</p>\n",
-      escaped(scene), escaped(comparison_text(comparison)), svg(accuracy_against_time(comparison)));
-  for (const MethodResult& r : comparison.methods) {
-    const std::string name(r.name);
-    if (!r.refused.empty()) {
-      page += fmt::format("<figure><figcaption><b>{}</b> refused: {}</figcaption></figure>\n", name,
-                          escaped(r.refused));
-      continue;
-    }
-    const std::string picture = fmt::format("{}-{}.png", scene, name);
-    const std::string error = fmt::format("{}-{}-error.png", scene, name);
-    write_png(folder / picture,
-              picture_of(r.colors, comparison.width, comparison.height, comparison.channels));
-    write_png(folder / error, error_picture(r, comparison));
-    page += fmt::format(
-        "<figure><img src=\"{}\" alt=\"\"><img src=\"{}\" alt=\"\"><figcaption><b>{}</b> {:.2f} "
-        "LSB{}</figcaption></figure>\n",
-        picture, error, name, r.error.largest_lsb,
-        r.is_limit ? "" : fmt::format(", {:.2f} ns", r.ns_per_pixel));
+  PageContent page;
+  page.title = scene + ": every shading method, its accuracy and its time";
+  page.row = "method";
+  page.summary = summary_of(comparison);
+  page.x = "ns_per_pixel";
+  page.y = "max_lsb";
+  page.logarithmic = true;
+  page.details = comparison_text(comparison);
+  const auto add_column = [&page](std::string_view name, std::string_view meaning,
+                                  PageColumn::Kind kind) {
+    page.columns.push_back({std::string(name), "", std::string(meaning), kind, Better::neither});
+  };
+  add_column("method", "", PageColumn::Kind::input);
+  add_column("source", "where it is described", PageColumn::Kind::text);
+  add_column("outcome", "whether it can render the scene", PageColumn::Kind::text);
+  add_column("message", "why it is refused, or what else there is to it", PageColumn::Kind::text);
+  for (const MethodColumn& column : kMethodColumns) {
+    page.columns.push_back({std::string(column.name), std::string(column.unit),
+                            std::string(column.meaning), PageColumn::Kind::metric, column.better});
   }
-  write_text(folder / fmt::format("{}-methods.html", scene), page);
+  for (const MethodResult& r : comparison.methods) {
+    const bool refused = !r.refused.empty();
+    std::vector<Cell>& row = page.rows.emplace_back();
+    row = {std::string(r.name), std::string(r.source), std::string(refused ? "refused" : "passed"),
+           refused ? r.refused : r.note};
+    for (const MethodColumn& column : kMethodColumns) row.push_back(cell(column, r, comparison));
+    const bool renders = !refused && !r.is_limit;
+    page.commands.push_back(renders
+                                ? fmt::format("{} --method {} -o {}", render, r.name,
+                                              shell_word(fmt::format("{}-{}.png", scene, r.name)))
+                                : "");
+    if (refused) continue;
+    const std::string picture =
+        png(picture_of(r.colors, comparison.width, comparison.height, comparison.channels));
+    const std::string error = png(error_picture(r, comparison));
+    write_text(folder / fmt::format("{}-{}.png", scene, r.name), picture);
+    write_text(folder / fmt::format("{}-{}-error.png", scene, r.name), error);
+    page.pictures[page.rows.size() - 1] = {{"result", picture}, {"error map", error}};
+  }
+  write_text(folder / fmt::format("{}-methods.html", scene), result_page(page));
   write_text(folder / fmt::format("{}-methods.svg", scene), svg(accuracy_against_time(comparison)));
 }
 

@@ -16,9 +16,11 @@ std::string comparison_csv(const Comparison& comparison);
 // Largest error against time, one point per method.
 Chart accuracy_against_time(const Comparison& comparison);
 
-// Writes SCENE-methods.html into the folder, with the plot in it, and the pictures it shows: each
-// method's and its error map.
-void write_comparison_page(const Comparison& comparison, const std::filesystem::path& folder);
+// Writes SCENE-methods.html into the folder, a page with each method's picture and error map, and
+// beside it the same pictures and the chart as files. `render`: the command that renders the scene,
+// without a method.
+void write_comparison_page(const Comparison& comparison, const std::string& render,
+                           const std::filesystem::path& folder);
 
 // Bishop & Weimer's timings on a MicroVAX-II beside times from operation counts. The time of an
 // operation is the one that makes the setup of their Taylor series take the printed seconds.

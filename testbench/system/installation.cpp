@@ -23,8 +23,9 @@ const Installation& installation() {
                       "cmake --install lays them out",
                       shared.string()));
     }
-    return Installation{shared / "hw",     shared / "rtl",    shared / "include",
-                        shared / "scenes", shared / "sweeps", prefix / "lib" / "phongpipe"};
+    return Installation{
+        shared / "hw",     shared / "rtl",  shared / "include",          shared / "scenes",
+        shared / "sweeps", shared / "page", prefix / "lib" / "phongpipe"};
   }();
   return found;
 }

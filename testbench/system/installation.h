@@ -13,6 +13,7 @@ struct Installation {
   std::filesystem::path rtl_shim;  // sources compiled with the Verilated RTL
   std::filesystem::path include;   // the headers of model/ that they include
   std::filesystem::path scenes, sweeps;
+  std::filesystem::path page;       // form, style and scripts of pages of results
   std::filesystem::path libraries;  // Verilator's runtime, and RTL that was built beforehand
 };
 

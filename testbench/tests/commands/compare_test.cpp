@@ -15,8 +15,11 @@ TEST_F(Program, CompareWritesAPageTablesAndCurves) {
   const ProcessOutput output = run({"compare", "sphere", "--out", folder_.string(), "--json",
                                     file("c.json"), "--csv", file("c.csv")});
   ASSERT_EQ(output.status, 0) << output.text;
-  EXPECT_NE(read_whole_file(file("sphere-methods.html")).find("sphere-gouraud-error.png"),
-            std::string::npos);
+  const std::string page = read_whole_file(file("sphere-methods.html"));
+  for (const char* word : {"\"render\"", "\"--method\"", "\"gouraud\""}) {
+    EXPECT_NE(page.find(word), std::string::npos) << word;
+  }
+  EXPECT_NE(page.find("iVBORw0KGgo"), std::string::npos) << "a picture";
   EXPECT_TRUE(fs::exists(file("sphere-gouraud-error.png")));
   EXPECT_EQ(json("c.json")[0]["methods"][0]["method"], "flat");
   ASSERT_EQ(run({"compare", "--curve", "size", "--out", folder_.string()}).status, 0);

@@ -17,7 +17,8 @@ TEST_F(Program, HelpHasAnExampleAtEachLevel) {
                                                     {"sweep", "--help"},
                                                     {"regress", "--help"},
                                                     {"export", "--help"},
-                                                    {"merge", "--help"}}) {
+                                                    {"merge", "--help"},
+                                                    {"report", "--help"}}) {
     const ProcessOutput output = run(arguments);
     EXPECT_EQ(output.status, 0);
     EXPECT_NE(output.text.find("Example: phongpipe"), std::string::npos) << output.text;

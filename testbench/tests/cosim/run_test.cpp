@@ -79,6 +79,43 @@ TEST(RunCommand, SaysEverythingThatIsNotTheDefault) {
   EXPECT_THROW(set_key(request, "budget", "0"), InputError);
 }
 
+TEST(RunCommand, IsReadBackAsItWas) {
+  RunRequest request;
+  for (const auto& [key, value] :
+       std::vector<std::pair<std::string, std::string>>{{"scene", "it's my \\ scene.toml"},
+                                                        {"hardware", ""},
+                                                        {"rom_address_bits", "12"},
+                                                        {"scene.object.0.segments", "[12, 8]"},
+                                                        {"scene.name", "'"},
+                                                        {"detail", "cycle"},
+                                                        {"stall", "25"},
+                                                        {"seed", "9"},
+                                                        {"effects", "both"},
+                                                        {"budget", "80.5"}}) {
+    set_key(request, key, value);
+  }
+  request.options.rtl_sources = "some folder/hw";
+  const RunRequest back = parse_command(command_of(request));
+  EXPECT_EQ(back.scene, request.scene);
+  EXPECT_EQ(back.hardware, request.hardware);
+  EXPECT_EQ(back.settings, request.settings);
+  EXPECT_EQ(back.options.rtl_sources, request.options.rtl_sources);
+  for (const RunOption& option : run_options()) {
+    EXPECT_EQ(option.get(back.options), option.get(request.options)) << option.name;
+    EXPECT_NE(option.get(back.options), option.get(RunRequest().options)) << option.name;
+  }
+  EXPECT_EQ(command_of(parse_command("phongpipe verify teapot")), "phongpipe verify teapot");
+}
+
+TEST(RunCommand, OthersAreRefused) {
+  for (const char* command :
+       {"", "phongpipe verify", "phongpipe render teapot", "phongpipe verify 'teapot",
+        "phongpipe verify teapot --stall", "phongpipe verify teapot --stall x",
+        "phongpipe verify teapot --color red"}) {
+    EXPECT_THROW(parse_command(command), InputError) << command;
+  }
+}
+
 TEST(RunResult, ComesThroughAPipeAsItIs) {
   RunResult result;
   result.outcome = Outcome::failed;

@@ -1,0 +1,27 @@
+// Verified scenes as a page: their metrics and pictures.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "testbench/reports/result_page.h"
+
+namespace phongpipe {
+
+class VerificationPage {
+ public:
+  // A result with pictures.
+  void add(const RunRequest& request, const VerificationResult& result);
+  // A scene that cannot be verified.
+  void add_refused(const RunRequest& request, const std::string& why);
+  std::string text() const;
+
+ private:
+  void put(const RunRequest& request, RunResult result);
+
+  std::vector<StoredRun> runs_;
+  std::map<std::string, std::vector<PagePicture>> pictures_;  // by the identity of the run
+};
+
+}  // namespace phongpipe
