@@ -93,7 +93,8 @@ struct PendingRun {
   std::size_t index = 0;  // in the campaign
   std::string identity;
   Loader::LoadedScene* scene = nullptr;
-  std::size_t rtl = 0;  // the same for runs whose user chose the same parameters of the RTL
+  bool second_chance = false;  // its first process ended during the run
+  std::size_t rtl = 0;         // the same for runs whose user chose the same parameters of the RTL
 };
 
 class Campaign {
@@ -290,17 +291,19 @@ class Campaign {
   }
 
   // A worker has ended: the runs that it has not finished are done one by one, so that one that
-  // crashes costs only itself.
+  // crashes costs only itself. The run in which it ended gets a second chance, alone.
   void end(std::size_t i) {
     ActiveWorker active = std::move(workers_[i]);
     workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));
     const std::string failure = active.worker->failure();
-    if (!failure.empty() && active.runs.size() == 1) {
+    if (!failure.empty() && !active.runs.empty() && active.runs.front().second_chance) {
       RunResult crash;
       crash.message = fmt::format("the process that did the run ended with {}", failure);
       crash.bucket = failure;
       record(active.runs.front(), crash, seconds_since(active.since));
-      return;
+      active.runs.pop_front();
+    } else if (!failure.empty() && !active.runs.empty()) {
+      active.runs.front().second_chance = true;
     }
     one_by_one_ += active.runs.size();
     while (!active.runs.empty()) {

@@ -245,6 +245,18 @@ TEST_F(Campaigns, ARunThatTakesTooLongOrTooMuchEndsAlone) {
   EXPECT_NE(late.text.find("timed out"), std::string::npos) << late.text;
 }
 
+TEST_F(Campaigns, ARunThatTakesTooMuchMemoryEndsAlone) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the address sanitizer takes terabytes of addresses, so that none are counted";
+#endif
+  const ProcessOutput output = run({"sweep", "sphere", "--vary", "scene.image.height=64,4096",
+                                    "--set", "scene.image.width=4096", "--vary", "budget=1e6",
+                                    "--rtl", "off", "--memory", "150", "--db", file("a.db")});
+  EXPECT_EQ(output.status, 3) << output.text;
+  EXPECT_NE(output.text.find("1 of 2 runs passed, 1 crashed"), std::string::npos) << output.text;
+  EXPECT_NE(output.text.find("1 × memory: out of memory"), std::string::npos) << output.text;
+}
+
 TEST_F(Campaigns, BadPlansAreRefusedAndLeaveNothing) {
   const auto refuse = [&](const std::vector<std::string>& more, const std::string& message) {
     std::vector<std::string> arguments = {"sweep", "sphere", "--db", file("x.db")};
