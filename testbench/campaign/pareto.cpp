@@ -1,6 +1,9 @@
 #include "testbench/campaign/pareto.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <tuple>
 
 namespace phongpipe {
@@ -26,15 +29,32 @@ std::vector<std::size_t> pareto_front(const std::vector<std::optional<ParetoPoin
   return front;
 }
 
-std::vector<std::size_t> front_of(const ResultTable& table) {
-  std::vector<std::optional<ParetoPoint>> points(table.rows.size());
+std::string scene_text(const ResultTable& table, std::size_t row) {
+  std::string text = table.text(row, "scene");
+  for (const std::string& column : table.columns) {
+    if (column.compare(0, kSceneSection.size(), kSceneSection) != 0) continue;
+    text += fmt::format(", {}={}", column.substr(kSceneSection.size()), table.text(row, column));
+  }
+  return text;
+}
+
+std::vector<std::vector<std::size_t>> fronts_by_scene(const ResultTable& table) {
+  std::map<std::string, std::size_t> scene_of;
+  std::vector<std::vector<std::optional<ParetoPoint>>> points;  // by scene, then by row
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const auto [scene, added] = scene_of.emplace(scene_text(table, row), points.size());
+    if (added) points.emplace_back(table.rows.size());
     const auto time = table.number(row, "frame_ns_per_pixel"), error = table.number(row, "max_lsb");
     if (table.text(row, "outcome") == "passed" && time && error) {
-      points[row] = ParetoPoint{*time, *error};
+      points[scene->second][row] = ParetoPoint{*time, *error};
     }
   }
-  return pareto_front(points);
+  std::vector<std::vector<std::size_t>> fronts;
+  for (const auto& of_scene : points) {
+    std::vector<std::size_t> front = pareto_front(of_scene);
+    if (!front.empty()) fronts.push_back(std::move(front));
+  }
+  return fronts;
 }
 
 }  // namespace phongpipe

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "testbench/campaign/store.h"
@@ -19,6 +20,11 @@ struct ParetoPoint {
 std::vector<std::size_t> pareto_front(const std::vector<std::optional<ParetoPoint>>& points);
 
 // The rows of a table that passed and stand on the front of frame_ns_per_pixel against max_lsb.
-std::vector<std::size_t> front_of(const ResultTable& table);
+// Only runs of the same scene, of the same content as far as it varies, compete: each scene has a
+// front of its own, in the order of the table.
+std::vector<std::vector<std::size_t>> fronts_by_scene(const ResultTable& table);
+
+// Names the scene of a row, with what of it varies: "sphere, material.grey.shininess=20".
+std::string scene_text(const ResultTable& table, std::size_t row);
 
 }  // namespace phongpipe

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "model/scene/input_error.h"
+#include "testbench/campaign/pareto.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
 #include "testbench/reports/campaign_page.h"

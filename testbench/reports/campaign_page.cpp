@@ -86,7 +86,7 @@ std::vector<std::string> front_texts(const ResultTable& table) {
   std::vector<std::string> texts;
   const auto fronts = fronts_by_scene(table);
   for (const auto& front : fronts) {
-    const std::string scene = fronts.size() > 1 ? table.text(front.front(), "scene") + ": " : "";
+    const std::string scene = fronts.size() > 1 ? scene_text(table, front.front()) + ": " : "";
     texts.push_back(scene + front_text(table, front));
   }
   if (texts.empty()) texts.emplace_back("Best trade-offs: none, for no run passed.");
@@ -138,29 +138,6 @@ std::vector<std::string> summary_of(const ResultTable& table, bool alternatives)
 }
 
 }  // namespace
-
-std::vector<std::vector<std::size_t>> fronts_by_scene(const ResultTable& table) {
-  // The table in parts, and where their rows are in the whole.
-  std::vector<ResultTable> parts;
-  std::vector<std::vector<std::size_t>> places;
-  std::map<std::string, std::size_t> part_of;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const auto [part, added] = part_of.emplace(table.text(row, "scene"), parts.size());
-    if (added) {
-      parts.push_back({table.columns, {}});
-      places.emplace_back();
-    }
-    parts[part->second].rows.push_back(table.rows[row]);
-    places[part->second].push_back(row);
-  }
-  std::vector<std::vector<std::size_t>> fronts;
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    std::vector<std::size_t> front = front_of(parts[part]);
-    for (std::size_t& row : front) row = places[part][row];
-    if (!front.empty()) fronts.push_back(std::move(front));
-  }
-  return fronts;
-}
 
 PageContent campaign_page(const ResultTable& table, const std::string& title, bool alternatives) {
   PageContent page;
@@ -222,7 +199,7 @@ Chart front_chart(const ResultTable& table, const std::string& title, bool alter
       alternatives ? fronts_by_scene(table) : std::vector<std::vector<std::size_t>>{};
   for (const auto& front : fronts) {
     PlotSeries series = {"Pareto front", {}};
-    if (fronts.size() > 1) series.name += " of " + table.text(front.front(), "scene");
+    if (fronts.size() > 1) series.name += " of " + scene_text(table, front.front());
     for (const std::size_t row : front) series.points.push_back(point(row));
     on_front.insert(front.begin(), front.end());
     chart.series.push_back(std::move(series));

@@ -9,9 +9,6 @@
 
 namespace phongpipe {
 
-// The rows on the Pareto front of each scene, see front_of(); scenes in the order of the table.
-std::vector<std::vector<std::size_t>> fronts_by_scene(const ResultTable& table);
-
 // `table`: of a Store. The page has its rows in the same order; of hardware that can be loaded it
 // has all settings. Without pictures. `alternatives`: the runs of a scene compete, as in a sweep.
 PageContent campaign_page(const ResultTable& table, const std::string& title, bool alternatives);

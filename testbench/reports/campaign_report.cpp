@@ -7,10 +7,10 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "testbench/campaign/pareto.h"
 #include "testbench/cosim/metrics_json.h"
+#include "testbench/hardware/hardware.h"
 #include "testbench/system/terminal.h"
 
 namespace phongpipe {
@@ -38,37 +38,57 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600);
 }
 
-// The points of the front, a line each.
+// The keys by which the rows of a table differ. What differs between scenes is in their names.
+std::vector<std::string> varied_keys(const ResultTable& table,
+                                     const std::vector<std::string>& keys) {
+  std::vector<std::string> varied;
+  for (const std::string& key : keys) {
+    if (key == "scene" || key.compare(0, kSceneSection.size(), kSceneSection) == 0) continue;
+    for (std::size_t row = 1; row < table.rows.size(); ++row) {
+      if (table.text(row, key) == table.text(0, key)) continue;
+      varied.push_back(key);
+      break;
+    }
+  }
+  return varied;
+}
+
+// A line for each point of the front, without those as good as the one before; of several scenes
+// the first and the last. "…" stands for the others.
 void add_front(std::string& text, const Store& store) {
   const ResultTable table = store.table();
-  std::map<std::string, std::set<std::string>> values;  // of the keys
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    for (const std::string& key : store.keys()) values[key].insert(table.text(row, key));
-  }
-  const std::vector<std::size_t> front = front_of(table);
-  if (front.empty()) return;
-  text += fmt::format("  front    {} of {} points have the least error for their time\n",
-                      front.size(), count_text(table.rows.size()));
+  const std::vector<std::string> keys = varied_keys(table, store.keys());
+  const auto fronts = fronts_by_scene(table);
   constexpr std::size_t kMostLines = 5;
-  std::size_t lines = 0;
-  std::string before;
-  for (const std::size_t row : front) {
-    const std::string measures =
-        fmt::format("{:.2f} ns a pixel, at most {:.2f} LSB",
-                    *table.number(row, "frame_ns_per_pixel"), *table.number(row, "max_lsb"));
-    if (measures == before) continue;  // as good as the one before
-    before = measures;
-    if (++lines > kMostLines) {
+  std::size_t scenes = 0;
+  for (const auto& front : fronts) {
+    if (++scenes > kMostLines) {
       text += "           …\n";
       return;
     }
-    text += fmt::format("           {}:", measures);
-    for (const std::string& key : store.keys()) {
-      if (values[key].size() < 2) continue;
-      text +=
-          fmt::format(" {}={}", key.substr(key.rfind('.') + 1), printable(table.text(row, key)));
+    std::vector<std::string> lines;
+    std::string before;
+    for (const std::size_t row : front) {
+      const std::string measures =
+          fmt::format("{:.2f} ns a pixel, at most {:.2f} LSB",
+                      *table.number(row, "frame_ns_per_pixel"), *table.number(row, "max_lsb"));
+      if (measures == before) continue;
+      before = measures;
+      std::string& line = lines.emplace_back(measures + ":");
+      for (const std::string& key : keys) {
+        const std::string value = printable(table.text(row, key));
+        line += fmt::format(" {}={}", key.substr(key.rfind('.') + 1), value);
+      }
     }
-    text += '\n';
+    const std::size_t most = fronts.size() > 1 ? 2 : kMostLines;
+    if (lines.size() > most) {
+      lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(most) - 1, lines.end() - 1);
+      if (fronts.size() == 1) lines.insert(lines.end() - 1, "…");
+    }
+    text += fmt::format("  front    {}least error for its time at {} points:\n",
+                        fronts.size() > 1 ? printable(scene_text(table, front.front())) + ": " : "",
+                        front.size());
+    for (const std::string& line : lines) text += fmt::format("           {}\n", line);
   }
 }
 

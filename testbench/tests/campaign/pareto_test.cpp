@@ -44,5 +44,23 @@ TEST(Pareto, NothingBeatsAPointOfTheFrontAndSomethingEveryOther) {
   }
 }
 
+// Runs of another scene, or of the same with other contents, are no competition.
+TEST(Pareto, EveryScenesContentHasAFrontOfItsOwn) {
+  ResultTable table;
+  table.columns = {"scene", "scene.light.0.color", "outcome", "frame_ns_per_pixel", "max_lsb"};
+  const auto add = [&](const char* scene, const char* light, const char* outcome, double time,
+                       double error) {
+    table.rows.push_back({std::string(scene), std::string(light), std::string(outcome),
+                          MetricValue(time), MetricValue(error)});
+  };
+  add("a", "1", "passed", 10, 5);
+  add("a", "1", "passed", 20, 9);
+  add("a", "2", "passed", 30, 30);
+  add("b", "1", "failed", 1, 1);
+  add("b", "1", "passed", 40, 40);
+  EXPECT_EQ(fronts_by_scene(table), (std::vector<std::vector<std::size_t>>{{0}, {2}, {4}}));
+  EXPECT_EQ(scene_text(table, 2), "a, light.0.color=2");
+}
+
 }  // namespace
 }  // namespace phongpipe

@@ -61,7 +61,7 @@ TEST_F(Reports, ShowsEveryRunWithPicturesOfTheFront) {
       << output.text;
   const nlohmann::json page = data("a.html");
   EXPECT_EQ(page["rows"], 15);
-  const std::vector<std::size_t> front = front_of(table());
+  const std::vector<std::size_t> front = fronts_by_scene(table()).front();
   ASSERT_FALSE(front.empty());
   EXPECT_EQ(page["pictures"].size(), front.size());
   for (const std::size_t row : front) {
