@@ -107,7 +107,7 @@ class Session {
     const CampaignProgress before = total_.progress;
     CampaignResult result = run_campaign(
         runs, command_.options, [this]() -> Store& { return store(); },
-        [&](const CampaignProgress& progress) { display_(before + progress); },
+        [&](const CampaignProgress& progress) { show(before + progress); },
         [&] { return interrupted != 0 || late(); });
     total_.progress = before + result.progress;
     // Runs for which there was no time do not count.
@@ -159,6 +159,11 @@ class Session {
   }
 
  private:
+  void show(CampaignProgress progress) {
+    if (command_.kind != "sweep") progress.best.reset();  // runs of a regression do not compete
+    display_(progress);
+  }
+
   Store& store() {
     if (!store_) {
       store_ = std::make_unique<Store>(command_.database, Store::Access::write, command_.kind);
