@@ -107,20 +107,54 @@ const Setting<Hardware>* setting_called(const std::string& key) {
   return nullptr;
 }
 
+// A single = would be an assignment.
+bool has_assignment(const std::string& text) {
+  for (std::size_t i = text.find('='); i != std::string::npos; i = text.find('=', i + 1)) {
+    const char before = i > 0 ? text[i - 1] : ' ', after = i + 1 < text.size() ? text[i + 1] : ' ';
+    if (after == '=') {
+      ++i;
+    } else if (before != '!' && before != '<' && before != '>') {
+      return true;
+    }
+  }
+  return false;
+}
+
 // An expression over the values of a point. Keys are variables, by their full names and by the last
-// part of these; words that are values of settings are numbers that only they equal.
+// part of these, unless two keys share it; words that are values of keys are numbers that only they
+// equal.
 class Expression {
  public:
-  Expression(const std::string& text, const Plan& plan) : text_(text) {
-    parser_.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
-    for (const Axis& axis : plan.axes) add_variable(axis.key);
-    for (const Tie& tie : plan.ties) add_variable(tie.key);
-    for (const Setting<Hardware>& setting : hardware_settings()) {
-      for (const std::string_view word : setting.choices) {
-        if (!parse_number(word)) define(std::string(word));
-      }
+  // `ties`: how many of the plan's ties it may use.
+  Expression(const std::string& text, const Plan& plan, std::size_t ties) : text_(text) {
+    constexpr std::size_t kLongest = 1000;
+    if (text.size() > kLongest) {
+      throw InputError(fmt::format("{}…: an expression of {} characters, at most {} are possible",
+                                   text.substr(0, 40), text.size(), kLongest));
     }
-    parser_.SetExpr(text);
+    if (has_assignment(text)) throw InputError(fmt::format("{}: write == to compare", text));
+    parser_.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    for (const Axis& axis : plan.axes) variables_.push_back({axis.key});
+    for (std::size_t i = 0; i < ties; ++i) variables_.push_back({plan.ties[i].key});
+    for (Variable& variable : variables_) {
+      define(variable.key, variable);
+      const std::string last = last_part(variable.key);
+      const auto shares =
+          std::count_if(variables_.begin(), variables_.end(),
+                        [&](const Variable& other) { return last_part(other.key) == last; });
+      if (last != variable.key && shares == 1) define(last, variable);
+    }
+    for (const Axis& axis : plan.axes) {
+      for (const std::string& value : axis.values) define_word(value);
+    }
+    for (const Setting<Hardware>& setting : hardware_settings()) {
+      for (const std::string_view word : setting.choices) define_word(std::string(word));
+    }
+    try {
+      parser_.SetExpr(text);
+    } catch (const mu::Parser::exception_type& error) {
+      throw InputError(fmt::format("{}: {}", text_, error.GetMsg()));
+    }
   }
 
   double evaluate(const std::vector<std::pair<std::string, std::string>>& values) {
@@ -146,24 +180,20 @@ class Expression {
     double value = 0;
   };
 
-  void add_variable(const std::string& key) {
-    variables_.push_back({key, 0});
+  static std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+  // What is no name, such as a key with spaces or six-point, cannot be part of an expression.
+  void define(const std::string& name, Variable& variable) {
     try {
-      parser_.DefineVar(key, &variables_.back().value);
-      const std::size_t dot = key.rfind('.');
-      if (dot != std::string::npos) {
-        parser_.DefineVar(key.substr(dot + 1), &variables_.back().value);
-      }
+      parser_.DefineVar(name, &variable.value);
     } catch (const mu::Parser::exception_type&) {
-      // A key that is no name, such as a material's with spaces, cannot be part of an expression.
     }
   }
-  void define(const std::string& word) {
-    if (words_.count(word) > 0 || parser_.GetVar().count(word) > 0) return;
+  void define_word(const std::string& word) {
+    if (parse_number(word) || words_.count(word) > 0 || parser_.GetVar().count(word) > 0) return;
     try {
       parser_.DefineConst(word, number_of(word));
     } catch (const mu::Parser::exception_type&) {
-      // A word that is no name, such as six-point, cannot be part of an expression.
     }
   }
   // A number as it is, a word as a number of its own.
@@ -183,8 +213,13 @@ class Expression {
 class PointMaker {
  public:
   explicit PointMaker(const Plan& plan) : plan_(plan) {
-    for (const Tie& tie : plan.ties) ties_.emplace_back(tie.expression, plan);
-    for (const std::string& condition : plan.conditions) conditions_.emplace_back(condition, plan);
+    // A tie may use those before it.
+    for (std::size_t i = 0; i < plan.ties.size(); ++i) {
+      ties_.emplace_back(plan.ties[i].expression, plan, i);
+    }
+    for (const std::string& condition : plan.conditions) {
+      conditions_.emplace_back(condition, plan, plan.ties.size());
+    }
   }
 
   // Nothing where a condition leaves the point out.

@@ -18,7 +18,7 @@ struct Axis {
   std::vector<std::string> values;
 };
 
-// `key` is set to the value of an expression of numeric axes.
+// `key` is set to the value of an expression, a number, of the axes and of the ties before it.
 struct Tie {
   std::string key, expression;
 };

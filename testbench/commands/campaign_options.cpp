@@ -51,7 +51,7 @@ class CampaignDisplay {
     if (terminal_) {
       live_(line);
     } else {
-      fmt::print(stderr, "{}\n", line);
+      tell(line);
     }
   }
   void clear() { live_.clear(); }

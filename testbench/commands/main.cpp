@@ -15,7 +15,7 @@ namespace phongpipe {
 namespace {
 
 int fail(int status, const std::string& message) {
-  fmt::print(stderr, "phongpipe: {}\n", printable(message));
+  tell("phongpipe: " + printable(message));
   return status;
 }
 

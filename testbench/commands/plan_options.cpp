@@ -52,7 +52,7 @@ void PlanOptions::add_to(CLI::App& command) {
   command.add_option("--sample", sample, "Draw N points at random instead of all")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, kMostPoints).description(""));
-  command.add_option("--seed", seed, "Of the sample")->capture_default_str()->type_name("S");
+  command.add_option("--seed", seed, "Of the sample (1)")->type_name("S");
   hardware.add_to(command);
 }
 
@@ -82,10 +82,9 @@ Plan PlanOptions::plan() const {
   for (const std::string& text : vary) plan.axes.push_back(parse_axis(text));
   for (const std::string& text : ties) plan.ties.push_back(parse_tie(text));
   plan.conditions.insert(plan.conditions.end(), conditions.begin(), conditions.end());
-  if (sample > 0) {
-    plan.sample = sample;
-    plan.seed = seed;
-  }
+  if (sample) plan.sample = *sample;
+  if (seed && plan.sample == 0) throw InputError("--seed is of a sample: give --sample N, too");
+  if (seed) plan.seed = *seed;
   if (std::none_of(plan.axes.begin(), plan.axes.end(),
                    [](const Axis& axis) { return axis.key == "scene"; })) {
     throw InputError(

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ struct PlanOptions {
   std::vector<std::string> inputs;  // scenes, and at most one sweep file or shipped sweep
   HardwareOptions hardware;
   std::vector<std::string> vary, ties, conditions;
-  std::uint64_t sample = 0, seed = 1;
+  std::optional<std::uint64_t> sample, seed;  // none: as the sweep file has them
 
   void add_to(CLI::App& command);
   // Throws InputError if there is no scene.

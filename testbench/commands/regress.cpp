@@ -40,7 +40,7 @@ int random_regression(Options& options) {
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   const std::uint64_t seed =
       options.seed ? *options.seed : static_cast<std::uint64_t>(now) % 1'000'000;
-  fmt::print(stderr, "random runs; --seed {} does the same again\n", seed);
+  tell(fmt::format("random runs; --seed {} does the same again", seed));
   return options.campaign.run_random(seed, options.count, 60 * options.minutes);
 }
 

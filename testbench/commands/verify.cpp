@@ -91,7 +91,7 @@ class Verifier {
       if (options_.scenes.size() == 1) throw;
       const bool input = dynamic_cast<const InputError*>(&error) != nullptr;
       status_ = std::max(status_, input ? kBadInput : kToolFailed);
-      fmt::print(stderr, "phongpipe: {}\n", printable(error.what()));
+      tell("phongpipe: " + printable(error.what()));
       if (input) page_.add_refused(request_of(scene), error.what());
       results_.push_back(
           {{"scene", scene.source}, {"passed", false}, {"error", printable(error.what())}});

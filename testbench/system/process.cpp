@@ -265,7 +265,7 @@ Worker::Worker(const std::function<void(const Send&)>& work) {
     try {
       work([&](const std::string& message) { send_message(messages.write_end, message); });
     } catch (const std::exception& error) {
-      fmt::print(stderr, "{}\n", error.what());
+      std::fputs(error.what(), stderr);
       status = 1;
     }
     std::fflush(nullptr);

@@ -62,6 +62,10 @@ void Progress::clear() {
   shown_ = false;
 }
 
+void tell(const std::string& line) {
+  std::fputs((line + "\n").c_str(), stderr);
+}
+
 bool color_wanted() {
   return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
 }

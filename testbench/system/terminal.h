@@ -22,6 +22,9 @@ class Progress {
   bool shown_ = false;
 };
 
+// Writes a line to standard error. That it is closed or full is no reason to stop.
+void tell(const std::string& line);
+
 bool color_wanted();  // standard output is a terminal, and NO_COLOR is not set
 
 // Text from outside, such as the name of a file, made safe for a terminal and for a JSON string:

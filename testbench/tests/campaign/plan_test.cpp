@@ -96,6 +96,10 @@ TEST(Plan, MistakesInExpressionsAreErrors) {
   EXPECT_THROW(points_of(plan), InputError);
   plan.conditions = {"rom_address_bits >"};
   EXPECT_THROW(points_of(plan), InputError);
+  plan.conditions = {"rom_address_bits = 8"};
+  EXPECT_THROW(points_of(plan), InputError) << "an assignment";
+  plan.conditions = {"rom_address_bits>0" + std::string(20'000, '+') + "0"};
+  EXPECT_THROW(points_of(plan), InputError) << "too long";
   plan.conditions = {"1 / (rom_address_bits - 6)"};
   EXPECT_THROW(points_of(plan), InputError);
   plan.conditions = {"rom_address_bits > 13"};
@@ -103,6 +107,25 @@ TEST(Plan, MistakesInExpressionsAreErrors) {
   plan.conditions.clear();
   plan.ties.push_back(parse_tie("rom_address_bits=5"));
   EXPECT_THROW(points_of(plan), InputError) << "varies twice";
+  plan.ties = {parse_tie("specular_fraction_bits=diffuse_fraction_bits"),
+               parse_tie("diffuse_fraction_bits=rom_address_bits")};
+  EXPECT_THROW(points_of(plan), InputError) << "a tie uses a later one";
+  std::swap(plan.ties[0], plan.ties[1]);
+  EXPECT_EQ(points_of(plan).front().values.back().second, "6");
+}
+
+TEST(Plan, WordsOfAnAxisCanBeCompared) {
+  Plan plan = plan_of({"technology=generic,ice40-hx8k", "scene=teapot,pawn"});
+  plan.conditions = {"technology == generic", "scene != pawn"};
+  EXPECT_EQ(points_of(plan).size(), 1U);
+}
+
+TEST(Plan, ANameThatTwoKeysShareIsNone) {
+  Plan plan = plan_of({"scene.material.a.shininess=1,20", "scene.material.b.shininess=1,20"});
+  plan.conditions = {"shininess > 10"};
+  EXPECT_THROW(points_of(plan), InputError);
+  plan.conditions = {"scene.material.a.shininess > 10"};
+  EXPECT_EQ(points_of(plan).size(), 2U);
 }
 
 TEST(Plan, ALargeSpaceIsSampledOrRefusedButNotEnumerated) {
