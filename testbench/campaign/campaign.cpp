@@ -74,16 +74,38 @@ class Loader {
     return scenes_.emplace(key, std::move(loaded)).first->second;
   }
 
-  Hardware hardware(const RunRequest& request) {
-    auto found = presets_.find(request.hardware);
-    if (found == presets_.end()) {
-      found = presets_.emplace(request.hardware, load_hardware(request.hardware, {})).first;
+  // Whether scene, preset and technology are there, as far as the request names them without
+  // changes of the scene. Throws InputError for a name that nothing has: a mistake of the whole
+  // campaign.
+  void check_names(const RunRequest& request) {
+    const auto is_own = [](const std::string& setting, std::string_view start) {
+      return setting.compare(0, start.size(), start) == 0;
+    };
+    bool changed = false;
+    for (const std::string& setting : request.settings) {
+      constexpr std::string_view kCard = "technology=";
+      if (is_own(setting, kCard) && cards_.insert(setting).second) {
+        load_technology(setting.substr(kCard.size()));
+      }
+      changed = changed || is_own(setting, kSceneSection);
     }
-    return override_hardware(found->second, request.settings);
+    if (!changed) scene(request);
+    preset(request.hardware);
+  }
+
+  Hardware hardware(const RunRequest& request) {
+    return override_hardware(preset(request.hardware), request.settings);
   }
 
  private:
+  const Hardware& preset(const std::string& name) {
+    auto found = presets_.find(name);
+    if (found == presets_.end()) found = presets_.emplace(name, load_hardware(name, {})).first;
+    return found->second;
+  }
+
   std::map<std::string, LoadedScene> scenes_;
+  std::set<std::string> cards_;
   std::map<std::string, Hardware> presets_;
 };
 
@@ -93,6 +115,7 @@ struct PendingRun {
   std::size_t index = 0;  // in the campaign
   std::string identity;
   Loader::LoadedScene* scene = nullptr;
+  bool alone = false;          // in a batch of its own, for another run ended the process before
   bool second_chance = false;  // its first process ended during the run
   std::size_t rtl = 0;         // the same for runs whose user chose the same parameters of the RTL
 };
@@ -134,22 +157,23 @@ class Campaign {
   struct ActiveWorker {
     std::unique_ptr<Worker> worker;
     std::deque<PendingRun> runs;
+    bool built = false;       // the RTL of its runs
     Clock::time_point since;  // when the last message came
   };
 
   // Loads scenes and hardware. What is not legal is refused.
   std::vector<PendingRun> resolve() {
-    if (!runs_.empty() && !runs_.front().request.options.rtl_sources.empty()) {
-      rtl_hash_ = rtl_hash(runs_.front().request.options.rtl_sources);
-    }
+    if (!runs_.empty()) rtl_hash_ = rtl_hash(runs_.front().request.options.rtl_sources);
     std::vector<PendingRun> legal;
     std::set<std::string> seen;
     std::map<std::string, std::size_t> rtl;
+    bool some_legal = false;  // also in other shards
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       const RunRequest& request = runs_[i].request;
       PendingRun run;
       run.index = i;
       std::string reason;
+      loader_.check_names(request);
       try {
         run.scene = &loader_.scene(request);
         const Hardware hardware = loader_.hardware(request);
@@ -158,6 +182,7 @@ class Campaign {
       } catch (const InputError& error) {
         reason = error.what();
       }
+      some_legal = some_legal || reason.empty();
       run.identity = identity_of(text_of(i));
       if (!in_shard(run.identity) || !seen.insert(run.identity).second) continue;
       ++result_.progress.total;
@@ -167,7 +192,7 @@ class Campaign {
         refused_.emplace_back(std::move(run), reason);
       }
     }
-    if (legal.empty() && !refused_.empty()) throw InputError(refused_.front().second);
+    if (!some_legal && !refused_.empty()) throw InputError(refused_.front().second);
     return legal;
   }
 
@@ -193,12 +218,14 @@ class Campaign {
       if (enough && found->second.outcome != Outcome::passed &&
           found->second.outcome != Outcome::refused) {
         ++result_.progress.known_failures;
+        result_.progress.known_crashes += found->second.outcome == Outcome::crashed ? 1 : 0;
       }
       return enough;
     };
     for (const auto& [run, reason] : refused_) {
       if (!is_known(run)) record(run, refused(reason), 0);
     }
+    for (const PendingRun& run : legal) result_.identities.push_back(run.identity);
     refused_.clear();
     // Runs that share a scene stand together, and of these the runs that share the RTL, so that one
     // batch builds it.
@@ -230,14 +257,15 @@ class Campaign {
   void start_worker() {
     constexpr std::size_t kLargestBatch = 16, kMostTriangles = 100'000;
     const std::size_t share = queue_.size() / (2 * jobs_);
-    const std::size_t size = one_by_one_ > 0 ? 1 : std::clamp<std::size_t>(share, 1, kLargestBatch);
+    const std::size_t size =
+        queue_.front().alone ? 1 : std::clamp<std::size_t>(share, 1, kLargestBatch);
     ActiveWorker active;
     std::vector<ResolvedRun> batch;
     std::size_t triangles = 0;
-    while (!queue_.empty() && batch.size() < size && triangles < kMostTriangles) {
+    while (!queue_.empty() && batch.size() < size && triangles < kMostTriangles &&
+           (batch.empty() || !queue_.front().alone)) {
       PendingRun run = std::move(queue_.front());
       queue_.pop_front();
-      one_by_one_ -= one_by_one_ > 0 ? 1 : 0;
       try {
         const auto scene = prepared(*run.scene);
         if (batch.empty() || batch.back().scene != scene) {
@@ -287,6 +315,7 @@ class Campaign {
       record(active.runs.front(), message.result, seconds_since(active.since));
       active.runs.pop_front();
     }
+    active.built = true;
     active.since = Clock::now();
   }
 
@@ -305,8 +334,13 @@ class Campaign {
     } else if (!failure.empty() && !active.runs.empty()) {
       active.runs.front().second_chance = true;
     }
-    one_by_one_ += active.runs.size();
+    do_alone(active);
+  }
+
+  // Puts the runs that a worker has not finished back into the queue, to be done one by one.
+  void do_alone(ActiveWorker& active) {
     while (!active.runs.empty()) {
+      active.runs.back().alone = true;
       queue_.push_front(std::move(active.runs.back()));
       active.runs.pop_back();
     }
@@ -315,18 +349,17 @@ class Campaign {
   void end_late_workers() {
     for (std::size_t i = workers_.size(); i-- > 0;) {
       ActiveWorker& active = workers_[i];
+      // Until its RTL is built, a batch has as much time as its runs together.
+      const double runs = active.built ? 1 : static_cast<double>(active.runs.size());
       const double seconds = seconds_since(active.since);
-      if (seconds <= options_.limits.seconds || active.runs.empty()) continue;
+      if (seconds <= runs * options_.limits.seconds || active.runs.empty()) continue;
       RunResult late;
       late.outcome = Outcome::timed_out;
-      late.message = fmt::format("not done after {} s", options_.limits.seconds);
+      late.message = fmt::format("not done after {:.0f} s", seconds);
       late.bucket = "time";
       record(active.runs.front(), late, seconds);
       active.runs.pop_front();
-      while (!active.runs.empty()) {
-        queue_.push_front(std::move(active.runs.back()));
-        active.runs.pop_back();
-      }
+      do_alone(active);
       workers_.erase(workers_.begin() + static_cast<std::ptrdiff_t>(i));  // kills it
     }
     flush();
@@ -339,6 +372,7 @@ class Campaign {
     stored.text = text_of(run.index);
     stored.command = command_of(asked.request);
     stored.scene = asked.request.scene;
+    if (run.scene != nullptr) stored.scene_hash = fmt::format("{:016x}", run.scene->hash);
     stored.hardware = asked.request.hardware;
     stored.values = asked.values;
     stored.result = result;
@@ -358,6 +392,7 @@ class Campaign {
         break;
       case Outcome::refused:
         ++progress.refused;
+        ++result_.refusals[result.message];
         break;
       case Outcome::crashed:
         ++progress.crashed;
@@ -409,9 +444,8 @@ class Campaign {
   std::size_t jobs_ = 1;
   Loader loader_;
   std::vector<std::pair<PendingRun, std::string>> refused_;  // at once, and why
-  std::uint64_t rtl_hash_ = 0;  // of the user's RTL, which is the same for all runs
+  std::uint64_t rtl_hash_ = 0;  // of the RTL, which is the same for all runs
   std::deque<PendingRun> queue_;
-  std::size_t one_by_one_ = 0;  // runs at the front of the queue that are batches of one
   std::vector<ActiveWorker> workers_;
   std::vector<StoredRun> finished_;                  // not stored yet
   std::shared_ptr<const PreparedScene> last_scene_;  // keeps it for the next batch
@@ -428,6 +462,7 @@ CampaignProgress CampaignProgress::operator+(const CampaignProgress& later) cons
   sum.total += total;
   sum.known += known;
   sum.known_failures += known_failures;
+  sum.known_crashes += known_crashes;
   sum.passed += passed;
   sum.failed += failed;
   sum.refused += refused;

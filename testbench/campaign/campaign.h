@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ struct CampaignProgress {
   std::uint64_t total = 0;           // runs of the shard
   std::uint64_t known = 0;           // of them that were stored before
   std::uint64_t known_failures = 0;  // of these that failed, crashed or timed out
+  std::uint64_t known_crashes = 0;   // of these that crashed
   std::uint64_t passed = 0, failed = 0, refused = 0, crashed = 0, timed_out = 0;  // done now
   double seconds = 0;           // since the first run was begun
   std::optional<BestRun> best;  // of those done now
@@ -49,8 +51,10 @@ struct CampaignProgress {
 
 struct CampaignResult {
   CampaignProgress progress;
-  bool interrupted = false;           // by Ctrl-C, or by fail_fast
-  std::vector<StoredRun> not_passed;  // failed, crashed or timed out now
+  std::vector<std::string> identities;            // of the shard's runs that are legal
+  bool interrupted = false;                       // by Ctrl-C, or by fail_fast
+  std::vector<StoredRun> not_passed;              // failed, crashed or timed out now
+  std::map<std::string, std::uint64_t> refusals;  // now, by reason
 };
 
 using ShowCampaign = std::function<void(const CampaignProgress&)>;

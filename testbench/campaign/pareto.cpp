@@ -42,7 +42,7 @@ std::vector<std::vector<std::size_t>> fronts_by_scene(const ResultTable& table) 
   std::map<std::string, std::size_t> scene_of;
   std::vector<std::vector<std::optional<ParetoPoint>>> points;  // by scene, then by row
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const auto [scene, added] = scene_of.emplace(scene_text(table, row), points.size());
+    const auto [scene, added] = scene_of.emplace(table.text(row, "scene_hash"), points.size());
     if (added) points.emplace_back(table.rows.size());
     const auto time = table.number(row, "frame_ns_per_pixel"), error = table.number(row, "max_lsb");
     if (table.text(row, "outcome") == "passed" && time && error) {

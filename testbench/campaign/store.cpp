@@ -6,8 +6,11 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <csignal>
+#include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -26,9 +29,8 @@ constexpr int kSchemaVersion = 1;
 
 // Columns of the table `runs` before those of keys and metrics.
 constexpr std::string_view kFixedColumns[] = {
-    "identity", "text",    "command", "scene",       "hardware",
-    "outcome",  "message", "bucket",  "verified_by", "configuration_hash",
-    "seconds"};
+    "identity", "text",    "command", "scene",       "scene_hash",         "hardware",
+    "outcome",  "message", "bucket",  "verified_by", "configuration_hash", "seconds"};
 
 std::string quoted_name(std::string_view name) {
   std::string result = "\"";
@@ -101,6 +103,11 @@ void add_column(SQLite::Database& database, const std::set<std::string>& present
   }
 }
 
+bool is_fixed_column(std::string_view name) {
+  return std::find(std::begin(kFixedColumns), std::end(kFixedColumns), name) !=
+         std::end(kFixedColumns);
+}
+
 void create_schema(SQLite::Database& database, const std::string& kind) {
   database.exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
   database.exec(fmt::format("PRAGMA user_version = {}", kSchemaVersion));
@@ -112,7 +119,8 @@ void create_schema(SQLite::Database& database, const std::string& kind) {
   database.exec("CREATE TABLE shards (name TEXT PRIMARY KEY)");
   database.exec(
       "CREATE TABLE runs (identity TEXT PRIMARY KEY, text TEXT NOT NULL, command TEXT NOT NULL, "
-      "scene TEXT NOT NULL, hardware TEXT NOT NULL, outcome TEXT NOT NULL, message TEXT NOT NULL, "
+      "scene TEXT NOT NULL, scene_hash TEXT NOT NULL, hardware TEXT NOT NULL, outcome TEXT NOT "
+      "NULL, message TEXT NOT NULL, "
       "bucket TEXT NOT NULL, verified_by TEXT NOT NULL, configuration_hash TEXT NOT NULL, "
       "seconds REAL NOT NULL) WITHOUT ROWID");
 }
@@ -128,6 +136,21 @@ void check_schema(const fs::path& file, SQLite::Database& database) {
     throw InputError(fmt::format("{}: written by a later phongpipe (schema {}, this one knows {})",
                                  name, version, kSchemaVersion));
   }
+}
+
+// The value of a key in a canonical text; none if the text does not have it, as with keys of the
+// scene.
+std::optional<std::string> value_in(const std::string& text, const std::string& key) {
+  const std::string start = key + "=";
+  std::string_view line;
+  for (LineReader lines(text); lines.next(line);) {
+    if (line.substr(0, start.size()) != start) continue;
+    std::string value(line.substr(start.size()));
+    // The technology's name comes before its clocks.
+    if (key == "technology") value = value.substr(0, value.find(' '));
+    return value;
+  }
+  return std::nullopt;
 }
 
 // Numbers are stored as numbers, so that they sort and compare as such.
@@ -149,6 +172,25 @@ void bind_metric(SQLite::Statement& statement, int index, const MetricValue& val
     statement.bind(index, *number);
   } else {
     statement.bind(index);  // NULL
+  }
+}
+
+// Gives the runs that are there the value of a key that has become a column.
+void fill_column(SQLite::Database& database, const std::string& key) {
+  SQLite::Statement select(database, "SELECT identity, text FROM runs");
+  std::vector<std::pair<std::string, std::string>> values;  // by identity
+  while (select.executeStep()) {
+    if (auto value = value_in(select.getColumn(1).getString(), key)) {
+      values.emplace_back(select.getColumn(0).getString(), std::move(*value));
+    }
+  }
+  SQLite::Statement update(
+      database, fmt::format("UPDATE runs SET {} = ? WHERE identity = ?", quoted_name(key)));
+  for (const auto& [identity, value] : values) {
+    bind_text_or_number(update, 1, value);
+    update.bind(2, identity);
+    update.exec();
+    update.reset();
   }
 }
 
@@ -198,31 +240,39 @@ Store::Store(const fs::path& file, Access access, const std::string& kind)
   }
   std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit of file sizes, a write then fails
   guarded(file_, [&] {
-    const int flags = access == Access::read ? SQLite::OPEN_READONLY
-                                             : SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE;
-    database_ = std::make_unique<SQLite::Database>(file_.string(), flags);
-    if (access == Access::read) {
-      check_schema(file_, *database_);
-    } else {
+    // What was interrupted while it was written is put in order by opening it for writing.
+    const fs::path journal = file_.string() + "-journal";
+    const bool interrupted = fs::exists(journal, none) && fs::file_size(journal, none) > 0;
+    const bool writes = access == Access::write || interrupted;
+    database_ = std::make_unique<SQLite::Database>(
+        file_.string(),
+        writes ? SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE : SQLite::OPEN_READONLY);
+    const auto is_empty = [&] {
+      return database_->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
+    };
+    if (access == Access::read || !is_empty()) check_schema(file_, *database_);
+    if (access == Access::write) {
       // The lock is taken by the transaction below and kept. A rollback journal, for write-ahead
       // logs do not work on the file systems that clusters share.
       database_->exec("PRAGMA locking_mode = EXCLUSIVE");
       database_->exec("PRAGMA journal_mode = TRUNCATE");
       database_->exec("BEGIN EXCLUSIVE");
-      if (database_->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0) {
-        create_schema(*database_, kind);
-      } else {
-        check_schema(file_, *database_);
-      }
+      if (is_empty()) create_schema(*database_, kind);
+      kind_ = database_->execAndGet("SELECT kind FROM about").getString();
+      check_kind(kind);
       const std::set<std::string> present = columns_of_runs(*database_);
       for (const Metric& metric : metrics()) add_column(*database_, present, metric.name);
       database_->exec("COMMIT");
     }
     kind_ = database_->execAndGet("SELECT kind FROM about").getString();
   });
+  check_kind(kind);
+}
+
+void Store::check_kind(const std::string& kind) const {
   if (!kind.empty() && kind != kind_) {
     throw InputError(
-        fmt::format("{}: the results of a {}, not of a {}", printable(file.string()), kind_, kind));
+        fmt::format("{}: the results of a {}, not of a {}", printable(file_.string()), kind_, kind));
   }
 }
 
@@ -234,17 +284,29 @@ std::vector<std::string> Store::keys() const {
 }
 
 void Store::add_keys(const std::vector<std::string>& keys) {
+  const auto lower = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
   guarded(file_, [&] {
     SQLite::Transaction transaction(*database_);
-    const std::set<std::string> present = columns_of_runs(*database_);
+    const std::vector<std::string> before = this->keys();
+    std::set<std::string> present = columns_of_runs(*database_);
+    std::map<std::string, std::string> spellings;  // SQL does not tell upper case from lower
+    for (const std::string& column : present) spellings.emplace(lower(column), column);
     for (const std::string& key : keys) {
-      const auto& fixed = kFixedColumns;
-      if (std::find(std::begin(fixed), std::end(fixed), key) == std::end(fixed)) {
-        add_column(*database_, present, key);
+      const auto& same = spellings.emplace(lower(key), key).first->second;
+      if (same != key) {
+        throw InputError(
+            fmt::format("{} and {} differ only by upper and lower case; rename one", same, key));
       }
+      if (std::find(before.begin(), before.end(), key) != before.end()) continue;
       SQLite::Statement insert(*database_, "INSERT OR IGNORE INTO keys VALUES (?)");
       insert.bind(1, key);
       insert.exec();
+      if (!present.insert(key).second) continue;
+      add_column(*database_, {}, key);
+      fill_column(*database_, key);
     }
     transaction.commit();
   });
@@ -278,62 +340,84 @@ std::unordered_map<std::string, KnownRun> Store::known() const {
 
 void Store::put(const std::vector<StoredRun>& runs) {
   if (runs.empty()) return;
+  const std::vector<std::string> keys = this->keys();
   guarded(file_, [&] {
+    std::vector<std::string> columns(std::begin(kFixedColumns), std::end(kFixedColumns));
+    for (const std::string& key : keys) {
+      if (!is_fixed_column(key)) columns.push_back(key);
+    }
+    const std::size_t before_metrics = columns.size();
+    for (const Metric& metric : metrics()) columns.emplace_back(metric.name);
+    std::vector<std::string> names, marks, updates;
+    for (const std::string& column : columns) {
+      names.push_back(quoted_name(column));
+      marks.emplace_back("?");
+      updates.push_back(fmt::format("{0} = excluded.{0}", names.back()));
+    }
     SQLite::Transaction transaction(*database_);
+    // That a process ended this time is no reason to forget a result.
+    SQLite::Statement insert(
+        *database_,
+        fmt::format("INSERT INTO runs ({}) VALUES ({}) ON CONFLICT (identity) DO UPDATE SET {} "
+                    "WHERE runs.outcome <> 'passed' OR excluded.outcome IN ('passed', 'failed')",
+                    fmt::join(names, ","), fmt::join(marks, ","), fmt::join(updates, ",")));
     for (const StoredRun& run : runs) {
-      std::vector<std::string> names;
-      for (const std::string_view column : kFixedColumns) names.push_back(quoted_name(column));
-      std::vector<const std::pair<std::string, std::string>*> values;
-      for (const auto& value : run.values) {
-        if (value.first == "scene" || value.first == "hardware") continue;
-        values.push_back(&value);
-        names.push_back(quoted_name(value.first));
-      }
-      if (!run.result.metrics.empty()) {
-        for (const Metric& metric : metrics()) names.push_back(quoted_name(metric.name));
-      }
-      std::string marks = "?";
-      for (std::size_t i = 1; i < names.size(); ++i) marks += ",?";
-      SQLite::Statement insert(*database_,
-                               fmt::format("INSERT OR REPLACE INTO runs ({}) VALUES ({})",
-                                           fmt::join(names, ","), marks));
       int index = 0;
       for (const std::string& text :
-           {run.identity, run.text, run.command, run.scene, run.hardware,
+           {run.identity, run.text, run.command, run.scene, run.scene_hash, run.hardware,
             std::string(name(run.result.outcome)), run.result.message, run.result.bucket,
             std::string(name(run.result.verified_by)), run.result.configuration_hash}) {
         insert.bind(++index, text);
       }
       insert.bind(++index, run.seconds);
-      for (const auto* value : values) bind_text_or_number(insert, ++index, value->second);
-      for (const MetricValue& value : run.result.metrics) bind_metric(insert, ++index, value);
+      while (static_cast<std::size_t>(index) < before_metrics) {
+        const std::string& key = columns[static_cast<std::size_t>(index)];
+        const auto own = std::find_if(run.values.begin(), run.values.end(),
+                                      [&](const auto& value) { return value.first == key; });
+        const std::optional<std::string> value =
+            own != run.values.end() ? own->second : value_in(run.text, key);
+        if (value) {
+          bind_text_or_number(insert, ++index, *value);
+        } else {
+          insert.bind(++index);  // NULL
+        }
+      }
+      for (std::size_t i = 0; i < metrics().size(); ++i) {
+        const auto& values = run.result.metrics;
+        bind_metric(insert, ++index, values.empty() ? MetricValue() : values[i]);
+      }
       insert.exec();
+      insert.reset();
     }
     transaction.commit();
   });
 }
 
-void Store::merge(const Store& other) {
+void Store::check_fits(const Store& other) const {
   const std::string here = printable(file_.string()), there = printable(other.file_.string());
   if (other.kind_ != kind_) {
     throw InputError(
         fmt::format("{} is a {}, {} a {}: not one campaign", here, kind_, there, other.kind_));
   }
-  const std::vector<std::string> their_keys = other.keys();
-  const std::vector<std::string> our_keys = keys();
+  const std::vector<std::string> their_keys = other.keys(), our_keys = keys();
   if (!our_keys.empty() && our_keys != their_keys) {
     throw InputError(fmt::format("{} varies {}, {} varies {}: not one campaign", there,
                                  fmt::join(their_keys, ", "), here, fmt::join(our_keys, ", ")));
   }
   const auto division = [](const std::string& shard) { return shard.substr(shard.find('/')); };
-  const std::vector<std::string> our_shards = shards(), their_shards = other.shards();
-  for (const std::string& theirs : their_shards) {
+  const std::vector<std::string> our_shards = shards();
+  for (const std::string& theirs : other.shards()) {
     for (const std::string& ours : our_shards) {
       if (division(ours) == division(theirs)) continue;
       throw InputError(fmt::format("{} is shard {}, others are {}: these do not fit together",
                                    there, theirs, fmt::join(our_shards, ", ")));
     }
   }
+}
+
+void Store::merge(const Store& other) {
+  check_fits(other);
+  const std::vector<std::string> their_keys = other.keys(), their_shards = other.shards();
   add_keys(their_keys);
   for (const std::string& shard : their_shards) add_shard(shard);
   guarded(file_, [&] {
@@ -373,7 +457,7 @@ ResultTable Store::table() const {
     table.columns.emplace_back("scene");
     table.columns.insert(table.columns.end(), varied.begin(), varied.end());
     for (const char* column :
-         {"outcome", "verified_by", "message", "bucket", "configuration_hash"}) {
+         {"scene_hash", "outcome", "verified_by", "message", "bucket", "configuration_hash"}) {
       table.columns.emplace_back(column);
     }
     const std::set<std::string> present = columns_of_runs(*database_);

@@ -25,7 +25,7 @@ struct StoredRun {
   std::string identity;  // see identity_of()
   std::string text;      // canonical
   std::string command;   // that verifies the same
-  std::string scene, hardware;
+  std::string scene, scene_hash, hardware;
   std::vector<std::pair<std::string, std::string>> values;  // of keys that vary, by full name
   RunResult result;
   double seconds = 0;  // wall-clock time, its share of building RTL included
@@ -67,6 +67,8 @@ class Store {
   const std::string& kind() const { return kind_; }
   // Keys that vary, by full name, in the order in which they were added.
   std::vector<std::string> keys() const;
+  // Adds keys, with their values in the runs that are there. Throws InputError for keys that differ
+  // only by case.
   void add_keys(const std::vector<std::string>& keys);
   // The divisions into shards that the runs were computed in, as "1/4", sorted; none for a whole.
   std::vector<std::string> shards() const;
@@ -74,10 +76,14 @@ class Store {
 
   // All runs by identity.
   std::unordered_map<std::string, KnownRun> known() const;
-  // Adds runs, or replaces those of the same identity. They are safe when put() returns.
+  // Adds runs, or replaces those of the same identity; a run that passed is replaced only by a
+  // result, not by a crash. They are safe when put() returns. Keys that a run's values lack are
+  // taken from its text.
   void put(const std::vector<StoredRun>& runs);
+  // Throws InputError if the other store is of another campaign.
+  void check_fits(const Store& other) const;
   // Copies all runs, keys and shards of another store. Of a run that both have, the one verified
-  // more strongly is kept. Throws InputError if the stores are of different campaigns.
+  // more strongly is kept. Throws as check_fits() does, and then nothing is copied.
   void merge(const Store& other);
 
   // Columns scene, those that vary, outcome, …, all metrics, command; rows sorted by scene and by
@@ -85,6 +91,8 @@ class Store {
   ResultTable table() const;
 
  private:
+  void check_kind(const std::string& kind) const;
+
   std::filesystem::path file_;
   std::unique_ptr<SQLite::Database> database_;
   std::string kind_;

@@ -113,6 +113,8 @@ class Session {
     // Runs for which there was no time do not count.
     if (late()) total_.progress.total = total_.progress.known + total_.progress.done();
     total_.interrupted = interrupted != 0 || (result.interrupted && !late());
+    identities_ = std::move(result.identities);
+    for (const auto& [reason, count] : result.refusals) total_.refusals[reason] += count;
     for (StoredRun& run : result.not_passed) total_.not_passed.push_back(std::move(run));
   }
 
@@ -134,9 +136,16 @@ class Session {
 
   bool stopped() const { return total_.interrupted; }
 
-  // Of `runs`, those whose results stand on the Pareto front.
+  // Of `runs`, which add() has just done, those whose results stand on the Pareto front.
   std::vector<CampaignRun> runs_of_front(const std::vector<CampaignRun>& runs) const {
-    const ResultTable table = store_->table();
+    ResultTable table = store_->table();
+    const std::set<std::string> own(identities_.begin(), identities_.end());
+    const std::size_t identity = table.column("identity");
+    table.rows.erase(std::remove_if(table.rows.begin(), table.rows.end(),
+                                    [&](const std::vector<Cell>& row) {
+                                      return own.count(exact_text(row[identity])) == 0;
+                                    }),
+                     table.rows.end());
     std::set<std::string> commands;
     for (const auto& front : fronts_by_scene(table)) {
       for (const std::size_t row : front) commands.insert(table.text(row, "command"));
@@ -155,7 +164,7 @@ class Session {
     if (command_.finish) command_.finish(*store_);
     if (interrupted != 0) return kInterrupted;
     const CampaignProgress& p = total_.progress;
-    return p.crashed > 0 ? kToolFailed : p.failures() > 0 ? kCheckFailed : 0;
+    return p.crashed + p.known_crashes > 0 ? kToolFailed : p.failures() > 0 ? kCheckFailed : 0;
   }
 
  private:
@@ -168,7 +177,9 @@ class Session {
     if (!store_) {
       store_ = std::make_unique<Store>(command_.database, Store::Access::write, command_.kind);
       store_->add_keys(keys_);
-      if (!command_.shard.empty()) store_->add_shard(command_.shard);
+      if (!command_.shard.empty()) {
+        store_->add_shard(fmt::format("{}/{}", command_.options.shard, command_.options.shards));
+      }
     }
     return *store_;
   }
@@ -179,6 +190,7 @@ class Session {
   CampaignDisplay display_;
   InterruptHandler handler_;
   CampaignResult total_;
+  std::vector<std::string> identities_;  // of the runs that were added last
 };
 
 }  // namespace

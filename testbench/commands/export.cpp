@@ -41,11 +41,15 @@ int merge_databases(const MergeOptions& options) {
       throw InputError(fmt::format("{}: cannot be merged into itself", database));
     }
   }
+  if (options.output.empty() || options.output == Store::kInMemory) {
+    throw InputError(fmt::format("-o {}: not the name of a file", options.output));
+  }
   // Everything is checked before the first byte is written.
   std::vector<std::unique_ptr<Store>> stores;
   for (const std::string& database : options.databases) {
     stores.push_back(std::make_unique<Store>(database, Store::Access::read));
   }
+  for (const auto& store : stores) stores.front()->check_fits(*store);
   Store merged(options.output, Store::Access::write, stores.front()->kind());
   for (const auto& store : stores) merged.merge(*store);
   print_or_throw(fmt::format("{}: {} runs of {} files\n", printable(options.output),

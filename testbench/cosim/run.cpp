@@ -230,7 +230,7 @@ std::string canonical_text(std::uint64_t scene_hash, const Hardware& hardware,
   for (const RunOption& option : run_options()) {
     text += fmt::format("{}={}\n", option.name, option.get(options));
   }
-  if (rtl_hash != 0) text += fmt::format("rtl={:016x}\n", rtl_hash);
+  text += fmt::format("rtl={:016x}\n", rtl_hash);
   return text + fmt::format("seconds={}\nmemory_mib={}\n", limits.seconds, limits.memory_mib);
 }
 

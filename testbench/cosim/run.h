@@ -51,10 +51,10 @@ struct RunLimits {
 };
 
 // The text that says everything a result depends on, a line each, and its hash: 16 hexadecimal
-// digits. `rtl_hash`: of the user's RTL; 0 for the installed one.
+// digits. `rtl_hash`: see rtl_library.h.
 std::string canonical_text(std::uint64_t scene_hash, const Hardware& hardware,
                            const VerificationOptions& options, const RunLimits& limits,
-                           std::uint64_t rtl_hash = 0);
+                           std::uint64_t rtl_hash);
 std::string identity_of(const std::string& canonical_text);
 
 // `failed`: a check of the verification failed. `refused`: the scene or the hardware is not legal.

@@ -115,6 +115,19 @@ void add_failures(std::string& text, const CampaignResult& result) {
   }
 }
 
+// Why runs were refused.
+void add_refusals(std::string& text, const CampaignResult& result) {
+  constexpr std::size_t kMostLines = 3;
+  std::size_t lines = 0;
+  for (const auto& [reason, count] : result.refusals) {
+    if (++lines > kMostLines) {
+      text += "           …\n";
+      return;
+    }
+    text += fmt::format("  refused  {} × {}\n", count_text(count), printable(reason));
+  }
+}
+
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -159,6 +172,7 @@ std::string campaign_text(const CampaignResult& result, const Store& store, cons
   }
   text += fmt::format("; {}\n", duration(p.seconds));
   add_failures(text, result);
+  add_refusals(text, result);
   if (store.kind() == "sweep") add_front(text, store);
   if (file == Store::kInMemory) return text;
   if (result.interrupted) {

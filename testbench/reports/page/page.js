@@ -34,9 +34,9 @@
   const outcomeOf = (row) => outcomes ? outcomes.values[row] : 'passed';
   const hasPassed = (row) => outcomeOf(row) === 'passed';
 
-  // Only runs of one scene compete, of the same content as far as it varies.
-  const scenes = columns.filter(({name}) => name === 'scene' || name.startsWith('scene.'));
-  const sceneOf = (row) => scenes.map((column) => column.values[row]).join('\n');
+  // Only runs of one scene compete, with the same content.
+  const scenes = columnOf.get('scene_hash') || columnOf.get('scene');
+  const sceneOf = (row) => scenes ? scenes.values[row] : '';
 
   const words = data.commands.map(unpacked);
   const commandOf = (row) => words.map((column) => column[row]).filter((word) => word !== null)

@@ -47,11 +47,12 @@ TEST(Pareto, NothingBeatsAPointOfTheFrontAndSomethingEveryOther) {
 // Runs of another scene, or of the same with other contents, are no competition.
 TEST(Pareto, EveryScenesContentHasAFrontOfItsOwn) {
   ResultTable table;
-  table.columns = {"scene", "scene.light.0.color", "outcome", "frame_ns_per_pixel", "max_lsb"};
+  table.columns = {"scene",   "scene_hash",         "scene.light.0.color",
+                   "outcome", "frame_ns_per_pixel", "max_lsb"};
   const auto add = [&](const char* scene, const char* light, const char* outcome, double time,
                        double error) {
-    table.rows.push_back({std::string(scene), std::string(light), std::string(outcome),
-                          MetricValue(time), MetricValue(error)});
+    table.rows.push_back({std::string(scene), std::string(scene) + light, std::string(light),
+                          std::string(outcome), MetricValue(time), MetricValue(error)});
   };
   add("a", "1", "passed", 10, 5);
   add("a", "1", "passed", 20, 9);

@@ -16,7 +16,7 @@ namespace {
 
 std::string identity(const Hardware& hardware, const VerificationOptions& options = {},
                      std::uint64_t scene = 1, const RunLimits& limits = {}) {
-  return identity_of(canonical_text(scene, hardware, options, limits));
+  return identity_of(canonical_text(scene, hardware, options, limits, 0));
 }
 
 TEST(RunIdentity, EverySettingOptionAndLimitCounts) {
