@@ -169,5 +169,39 @@ TEST_F(StoreTest, MergeRefusesPartsOfDifferentCampaigns) {
   EXPECT_EQ(merged.known().size(), 2U) << "nothing of what was refused";
 }
 
+TEST_F(StoreTest, ACrashDoesNotReplaceAResult) {
+  Store store(file("a.db"), Store::Access::write, "sweep");
+  store.put({run("a", 4)});
+  store.put({run("a", 4, Outcome::crashed, VerifiedBy::nothing)});
+  EXPECT_EQ(store.known().at("a").outcome, Outcome::passed);
+  store.put({run("a", 4, Outcome::failed)});
+  EXPECT_EQ(store.known().at("a").outcome, Outcome::failed) << "a check that failed is a result";
+  EXPECT_EQ(store.table().text(0, "max_lsb"), "") << "of the new result only";
+}
+
+// A key that one campaign varies has its value in the runs of another, too.
+TEST_F(StoreTest, KeysAreFilledInFromTheTextOfRuns) {
+  Store store(file("a.db"), Store::Access::write, "sweep");
+  StoredRun first = run("a", 4);
+  first.values.clear();
+  first.text = "datapath.rom_address_bits=9\nstall=25\ntechnology=generic 0 11 20:5\n";
+  store.put({first});
+  store.add_keys({"stall", "technology", "scene.light.0.color"});
+  StoredRun second = first;
+  second.identity = "b";
+  second.values = {{"scene.light.0.color", "[1,1,1]"}};
+  store.put({second});
+  store.add_keys({"datapath.rom_address_bits"});
+  const ResultTable table = store.table();
+  for (std::size_t row = 0; row < 2; ++row) {
+    EXPECT_EQ(table.text(row, "stall"), "25");
+    EXPECT_EQ(table.text(row, "technology"), "generic");
+    EXPECT_EQ(table.text(row, "datapath.rom_address_bits"), "9");
+  }
+  EXPECT_EQ(table.text(0, "scene.light.0.color"), "");
+  EXPECT_EQ(table.text(1, "scene.light.0.color"), "[1,1,1]");
+  expect_refused([&] { store.add_keys({"Stall"}); }, "upper and lower case");
+}
+
 }  // namespace
 }  // namespace phongpipe

@@ -208,6 +208,36 @@ TEST_F(Campaigns, ShardsMergeIntoTheWhole) {
   expect_refused(sweep("x.db", {"--shard", "4/3"}), "write I/N");
 }
 
+TEST_F(Campaigns, AShardWhoseRunsAreAllRefusedIsNoFailure) {
+  std::size_t rows = 0;
+  for (int shard = 1; shard <= 6; ++shard) {
+    const std::string name = fmt::format("part{}.db", shard);
+    const ProcessOutput output =
+        run({"sweep", "sphere", "--vary", "rom_address_bits=8,99,100,101,102", "--rtl", "off",
+             "--db", file(name), "--shard", fmt::format("{}/6", shard)});
+    EXPECT_EQ(output.status, 0) << output.text;
+    rows += table(name).rows.size();
+  }
+  EXPECT_EQ(rows, 5U);
+}
+
+TEST_F(Campaigns, AMergeThatIsRefusedLeavesNothing) {
+  ASSERT_EQ(run(sweep("a.db")).status, 0);
+  ASSERT_EQ(
+      run({"sweep", "sphere", "--vary", "stall=0,1", "--rtl", "off", "--db", file("b.db")}).status,
+      0);
+  expect_refused({"merge", file("a.db"), file("b.db"), "-o", file("c.db")}, "not one campaign");
+  expect_refused({"merge", file("a.db"), "-o", ":memory:"}, "not the name of a file");
+}
+
+TEST_F(Campaigns, AClosedStandardErrorIsNoReasonToStop) {
+  EXPECT_EQ(run_process({"sh", "-c",
+                         PHONGPIPE_PROGRAM " regress --random --count 2 --rtl off 2>&- >/dev/null"})
+                .status,
+            0);
+  EXPECT_EQ(run_process({"sh", "-c", PHONGPIPE_PROGRAM " verify nosuch 2>/dev/full"}).status, 2);
+}
+
 TEST_F(Campaigns, ValuesOutOfRangeAreRefusedRowsAndFailOnlyIfAllAre) {
   const ProcessOutput output = run(
       {"sweep", "sphere", "--vary", "rom_address_bits=5:7", "--rtl", "off", "--db", file("a.db")});
@@ -269,8 +299,11 @@ TEST_F(Campaigns, BadPlansAreRefusedAndLeaveNothing) {
   refuse({"--vary", "rom_address_bits=6:13", "--where", "rom_address_bits>20"}, "no point is left");
   refuse({"--vary", "seed=0:99999", "--vary", "stall=0:99"}, "--sample");
   refuse({"--vary", "rom_address_bits=6:13", "--set", "nosuch=3"}, "unknown key");
-  expect_refused({"sweep", "nosuch", "--vary", "stall=1,2", "--db", file("x.db")},
+  expect_refused({"sweep", "sphere", "nosuch", "--vary", "stall=1,2", "--db", file("x.db")},
                  "no such file or scene");
+  refuse({"--vary", "hardware=default,nosuch"}, "no such file or preset");
+  refuse({"--vary", "technology=generic,nosuch"}, "no such file or technology card");
+  refuse({"--vary", "stall=1,2", "--seed", "7"}, "--seed is of a sample");
   expect_refused({"export", file("x.db"), "--csv", "-"}, "no such file");
 }
 
