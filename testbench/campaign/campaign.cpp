@@ -392,7 +392,8 @@ class Campaign {
         break;
       case Outcome::refused:
         ++progress.refused;
-        ++result_.refusals[result.message];
+        ++result_.refusals[result.bucket == kOverflow ? "values do not fit their registers"
+                                                      : result.message];
         break;
       case Outcome::crashed:
         ++progress.crashed;

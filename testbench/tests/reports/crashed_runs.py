@@ -3,7 +3,7 @@ import sqlite3
 import sys
 
 database = sqlite3.connect(sys.argv[1])
-described = ["identity", "text", "command", "scene", "hardware", "outcome", "message", "bucket",
+described = ["identity", "text", "command", "scene", "scene_hash", "hardware", "outcome", "message", "bucket",
              "verified_by", "configuration_hash", "seconds"]
 columns = [row[0] for row in database.execute("SELECT name FROM pragma_table_info('runs')")]
 results = [name for name in columns if name not in described and "." not in name]
