@@ -162,9 +162,9 @@ void apply_override(toml::table& document, const std::string& text) {
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
     node = child_of(*node, keys[i]);
     if (node != nullptr) continue;
-    throw InputError(fmt::format("{}: the scene has no {}", text,
-                                 fmt::join(keys.begin(), keys.begin() + static_cast<long>(i) + 1,
-                                           ".")));
+    throw InputError(
+        fmt::format("{}: the scene has no {}", text,
+                    fmt::join(keys.begin(), keys.begin() + static_cast<long>(i) + 1, ".")));
   }
   toml::table* const table = node->as_table();
   if (table == nullptr) throw InputError(fmt::format("{}: no such key", text));
@@ -334,9 +334,8 @@ std::vector<std::string> TomlTable::keys() const {
   std::vector<std::string> result;
   for (const auto& [key, node] : *state_->table) result.emplace_back(key.str());
   // toml++ sorts by name; the file's order is what a reader expects.
-  std::stable_sort(result.begin(), result.end(), [&](const std::string& a, const std::string& b) {
-    return line(a) < line(b);
-  });
+  std::stable_sort(result.begin(), result.end(),
+                   [&](const std::string& a, const std::string& b) { return line(a) < line(b); });
   return result;
 }
 

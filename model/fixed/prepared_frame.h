@@ -15,8 +15,7 @@ struct PreparedScene {
   Scene scene;
   Geometry geometry;
 
-  explicit PreparedScene(Scene scene_)
-      : scene(std::move(scene_)), geometry(make_geometry(scene)) {}
+  explicit PreparedScene(Scene scene_) : scene(std::move(scene_)), geometry(make_geometry(scene)) {}
 };
 
 // All data of a frame before its first triangle is set up. `setup` refers to the other members, so

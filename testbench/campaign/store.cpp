@@ -271,8 +271,8 @@ Store::Store(const fs::path& file, Access access, const std::string& kind)
 
 void Store::check_kind(const std::string& kind) const {
   if (!kind.empty() && kind != kind_) {
-    throw InputError(
-        fmt::format("{}: the results of a {}, not of a {}", printable(file_.string()), kind_, kind));
+    throw InputError(fmt::format("{}: the results of a {}, not of a {}", printable(file_.string()),
+                                 kind_, kind));
   }
 }
 
