@@ -79,9 +79,8 @@ using Better = Metric::Better;
 
 // A measure of a method. Those of cost are not filled in for the limit.
 struct MethodColumn {
-  std::string_view name, unit;
+  std::string_view name, unit, meaning;
   Better better;
-  std::string_view meaning;
   bool of_cost;
   MetricValue (*value)(const MethodResult&, const Comparison&);
 };
@@ -95,34 +94,34 @@ MetricValue count(std::size_t value) {
 }
 
 constexpr MethodColumn kMethodColumns[] = {
-    {"add", "", Better::less, "additions for a pixel", true,
+    {"add", "", "additions for a pixel", Better::less, true,
      [](const MethodResult& r, const Comparison&) { return count(of_a_pixel(r).add); }},
-    {"multiply", "", Better::less, "multiplications for a pixel", true,
+    {"multiply", "", "multiplications for a pixel", Better::less, true,
      [](const MethodResult& r, const Comparison&) { return count(of_a_pixel(r).multiply); }},
-    {"divide", "", Better::less, "divisions for a pixel", true,
+    {"divide", "", "divisions for a pixel", Better::less, true,
      [](const MethodResult& r, const Comparison&) { return count(of_a_pixel(r).divide); }},
-    {"sqrt", "", Better::less, "√ and 1/√ for a pixel", true,
+    {"sqrt", "", "√ and 1/√ for a pixel", Better::less, true,
      [](const MethodResult& r, const Comparison&) {
        return count(of_a_pixel(r).sqrt + of_a_pixel(r).rsqrt);
      }},
-    {"read", "", Better::less, "table reads for a pixel", true,
+    {"read", "", "table reads for a pixel", Better::less, true,
      [](const MethodResult& r, const Comparison&) { return count(of_a_pixel(r).read); }},
-    {"clocks_per_pixel", "cycles", Better::less,
-     "on the setup engine's units, setup shared out over the pixels", true,
+    {"clocks_per_pixel", "cycles", "on the setup engine's units, setup shared out over the pixels",
+     Better::less, true,
      [](const MethodResult& r, const Comparison&) -> MetricValue { return r.clocks_per_pixel; }},
-    {"ns_per_pixel", "ns", Better::less, "the same as time", true,
+    {"ns_per_pixel", "ns", "the same as time", Better::less, true,
      [](const MethodResult& r, const Comparison&) -> MetricValue { return r.ns_per_pixel; }},
-    {"speed_over_phong", "", Better::more, "as software on this machine, exact Phong's being 1",
+    {"speed_over_phong", "", "as software on this machine, exact Phong's being 1", Better::more,
      true,
      [](const MethodResult& r, const Comparison& c) -> MetricValue {
        return wall_clock_of_phong(c) / r.wall_clock_ns_per_pixel;
      }},
-    {"max_lsb", "LSB", Better::less, "largest error against exact Phong", false,
+    {"max_lsb", "LSB", "largest error against exact Phong", Better::less, false,
      [](const MethodResult& r, const Comparison&) -> MetricValue { return r.error.largest_lsb; }},
-    {"rms_lsb", "LSB", Better::less, "root of its mean square", false,
+    {"rms_lsb", "LSB", "root of its mean square", Better::less, false,
      [](const MethodResult& r, const Comparison&) -> MetricValue { return r.error.rms_lsb(); }},
-    {"seam_lsb", "LSB", Better::less,
-     "largest jump of the error across an edge that two triangles share", false,
+    {"seam_lsb", "LSB", "largest jump of the error across an edge that two triangles share",
+     Better::less, false,
      [](const MethodResult& r, const Comparison&) -> MetricValue { return r.largest_seam_lsb; }},
 };
 

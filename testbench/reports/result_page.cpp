@@ -123,6 +123,7 @@ std::string json_commands(const std::vector<std::string>& commands) {
     }
   }
   std::vector<std::string> items;
+  items.reserve(columns.size());
   for (const auto& column : columns) items.push_back(fmt::format("{{{}}}", json_values(column)));
   return json_list(items);
 }
