@@ -75,7 +75,7 @@ TEST_F(Campaigns, ASweepsRowsEqualVerifyToTheLastDigit) {
       run({"sweep", "sphere", "--set", "scene.object.0.segments=[12,8]", "--vary",
            "diffuse_fraction_bits=4,9", "--vary", "stall=0,30", "--db", file("a.db")});
   ASSERT_EQ(output.status, 0) << output.text;
-  EXPECT_EQ(output.text.rfind("PASSED sweep  4 of 4 runs passed", 0), 0U) << output.text;
+  EXPECT_NE(output.text.find("PASSED sweep  4 of 4 runs passed"), std::string::npos) << output.text;
   const ResultTable results = table("a.db");
   ASSERT_EQ(results.rows.size(), 4U);
   for (std::size_t row = 0; row < 4; ++row) {
