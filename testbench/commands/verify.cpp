@@ -82,8 +82,10 @@ class Verifier {
           scene, hardware_, options_.verification,
           [&](const std::string& what) { progress_(fmt::format("{}: {}", scene.source, what)); });
       progress_.clear();
-      if (!options_.pictures.empty()) page_.add(request_of(scene), result);
       show(result, name);
+      if (!options_.pictures.empty()) {
+        page_.add(request_of(scene), result, picture_files(options_.pictures, name));
+      }
       results_.push_back(report_json(result));
       passed_ += result.passed() ? 1 : 0;
     } catch (const std::exception& error) {

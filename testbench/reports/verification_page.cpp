@@ -2,15 +2,17 @@
 
 #include <fmt/format.h>
 
+#include "model/files/text_file.h"
 #include "testbench/reports/campaign_page.h"
 
 namespace phongpipe {
 
-void VerificationPage::add(const RunRequest& request, const VerificationResult& result) {
+void VerificationPage::add(const RunRequest& request, const VerificationResult& result,
+                           const std::array<std::filesystem::path, 3>& pictures) {
   put(request, phongpipe::summary_of(result));
-  pictures_[runs_.back().identity] = {{"result", png(result.result_picture)},
-                                      {"exact Phong", png(result.accuracy.exact_picture)},
-                                      {"error map", png(result.accuracy.error_picture)}};
+  pictures_[runs_.back().identity] = {{"result", read_whole_file(pictures[0])},
+                                      {"exact Phong", read_whole_file(pictures[1])},
+                                      {"error map", read_whole_file(pictures[2])}};
 }
 
 void VerificationPage::add_refused(const RunRequest& request, const std::string& why) {

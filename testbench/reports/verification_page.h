@@ -1,6 +1,8 @@
 // Verified scenes as a page: their metrics and pictures.
 #pragma once
 
+#include <array>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,8 +13,9 @@ namespace phongpipe {
 
 class VerificationPage {
  public:
-  // A result with pictures.
-  void add(const RunRequest& request, const VerificationResult& result);
+  // A result, and the files that write_pictures() has written of it.
+  void add(const RunRequest& request, const VerificationResult& result,
+           const std::array<std::filesystem::path, 3>& pictures);
   // A scene that cannot be verified.
   void add_refused(const RunRequest& request, const std::string& why);
   std::string text() const;
