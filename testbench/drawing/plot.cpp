@@ -11,6 +11,7 @@
 
 #include "testbench/drawing/plot_axis.h"
 #include "testbench/drawing/plot_labels.h"
+#include "testbench/system/markup.h"
 
 namespace phongpipe {
 namespace {
@@ -51,29 +52,6 @@ Axis axis_of(const Chart& chart) {
   return Axis(*low, values.back(), logarithmic);
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        if (static_cast<unsigned char>(c) >= 0x20) result += c;  // XML has no control characters
-    }
-  }
-  return result;
-}
-
 class Drawing {
  public:
   explicit Drawing(const Chart& chart)
@@ -96,7 +74,7 @@ class Drawing {
         "\n<title>{2}</title>\n"
         R"(<rect width="100%" height="100%" fill="white"/>)"
         "\n",
-        width, height, escaped(chart_.title));
+        width, height, markup_text(chart_.title));
     add_axes();
     for (std::size_t i = 0; i < chart_.series.size(); ++i) add_series(i);
     add_labels();
@@ -110,7 +88,7 @@ class Drawing {
     fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
   }
   void add_text(double x, double y, std::string_view style, const std::string& text) {
-    add("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, escaped(text));
+    add("<text x=\"{:.1f}\" y=\"{:.1f}\" {}>{}</text>\n", x, y, style, markup_text(text));
   }
   void add_line(double x0, double y0, double x1, double y1, const char* color) {
     add("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" stroke=\"{}\"/>\n", x0, y0, x1, y1, color);
@@ -150,7 +128,7 @@ class Drawing {
   void begin_series(std::size_t i) {
     const char* const color = kColors[i % kColors.size()];
     add("<g stroke=\"{}\" fill=\"{}\" stroke-width=\"1.6\">\n<title>{}</title>\n", color, color,
-        escaped(chart_.series[i].name));
+        markup_text(chart_.series[i].name));
   }
   void add_path(std::size_t i, const std::string& path) {
     if (path.empty()) return;

@@ -14,32 +14,14 @@
 #include "model/files/text_file.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/system/installation.h"
+#include "testbench/system/markup.h"
 #include "testbench/system/terminal.h"
 
 namespace phongpipe {
 namespace {
 
 std::string html(std::string_view text) {
-  std::string result;
-  for (const char c : printable(text)) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
+  return markup_text(printable(text));
 }
 
 // A string literal. Nothing in it can end the script that it stands in.
