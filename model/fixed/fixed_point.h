@@ -26,15 +26,17 @@ inline bool fits(std::int64_t value, int width) {
   return wrap_to(value, width) == value;
 }
 
-// Nearest multiple of 2^−fraction_bits, ties away from zero. Sets `overflow` and returns 0 if the
-// result does not fit in 63 bits or is NaN.
+// Nearest multiple of 2^−fraction_bits, from 0 to 62, ties away from zero. Sets `overflow` and
+// returns 0 if the result does not fit in 63 bits or is NaN.
 inline std::int64_t to_fixed(double value, int fraction_bits, bool& overflow) {
-  const double scaled = std::round(std::ldexp(value, fraction_bits));
+  const double scaled = value * static_cast<double>(std::int64_t{1} << fraction_bits);
   if (!(std::fabs(scaled) < 0x1p62)) {
     overflow = true;
     return 0;
   }
-  return static_cast<std::int64_t>(scaled);
+  const auto whole = static_cast<std::int64_t>(scaled);
+  const double rest = scaled - static_cast<double>(whole);  // exact
+  return whole + (rest >= 0.5 ? 1 : 0) - (rest <= -0.5 ? 1 : 0);
 }
 
 // Drops `bits` fraction bits, rounding to nearest, ties up.

@@ -159,18 +159,22 @@ EffectBlocks derive_blocks(const FixedPointFormats& formats, const Scene& scene,
 }
 
 FrameSetup::FrameSetup(const Scene& scene_, const Geometry& geometry_,
-                       const FrameConfiguration& configuration_, Effects effects_)
+                       const FrameConfiguration& configuration_, Effects effects_,
+                       GeometryMemo* memo_)
     : configuration(configuration_),
       effects(effects_),
       width(scene_.image.width),
       height(scene_.image.height),
       passes(static_cast<std::uint32_t>(scene_.lights.size())),
-      depth_test(effects == Effects::all || overlap(scene_, geometry_)),
       background(output_color(scene_.image.background)),
       scene(&scene_),
       geometry(&geometry_),
+      memo(memo_),
       materials_of_a_pass(static_cast<std::uint32_t>(geometry_.materials.size())) {
   configuration.check();
+  const auto some_overlap = [&] { return overlap(*scene, *geometry); };
+  depth_test =
+      effects == Effects::all || (memo != nullptr ? memo->overlap(some_overlap) : some_overlap());
   require_exponents(*scene, *geometry);
   if (scene->depth_cue) cue_color = output_color(scene->depth_cue->color);
   for (std::uint32_t pass = 0; pass < passes; ++pass) {

@@ -8,6 +8,7 @@
 
 #include "model/fixed/datapath_configuration.h"
 #include "model/fixed/exponent_rom.h"
+#include "model/fixed/geometry_memo.h"
 #include "model/scene/geometry.h"
 #include "model/shading/triangle_setup.h"
 
@@ -48,14 +49,15 @@ struct FrameSetup {
   double depth_offset = 0, depth_scale = 0;
   OutputColor cue_color = {};
   OutputColor background = {};
-  const Scene* scene = nullptr;  // both must outlive the setup
+  const Scene* scene = nullptr;  // all three must outlive the setup
   const Geometry* geometry = nullptr;
+  GeometryMemo* memo = nullptr;  // of the geometry under the scene's lights; or none
 
   // Throws InputError if the scene uses what the pipeline does not simulate, or the configuration
   // is out of range. The blocks of `configuration` must be those that the scene requires, see
   // derive_blocks.
   FrameSetup(const Scene& scene, const Geometry& geometry, const FrameConfiguration& configuration,
-             Effects effects = Effects::derived);
+             Effects effects = Effects::derived, GeometryMemo* memo = nullptr);
 
   const MaterialSetup& material(std::uint32_t pass, std::uint32_t material) const {
     return materials[pass * materials_of_a_pass + material];

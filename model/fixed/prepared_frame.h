@@ -10,31 +10,56 @@
 
 namespace phongpipe {
 
-// A scene with its triangles on the screen, not subdivided.
-struct PreparedScene {
-  Scene scene;
-  Geometry geometry;
+// A geometry whose triangles were subdivided, and what is known of it.
+struct SubdividedGeometry {
+  Subdivision subdivision;
+  std::unique_ptr<GeometryMemo> memo;
+};
+
+// A scene with its triangles on the screen.
+class PreparedScene {
+ public:
+  const Scene scene;
+  const Geometry geometry;  // not subdivided
 
   explicit PreparedScene(Scene scene_) : scene(std::move(scene_)), geometry(make_geometry(scene)) {}
+
+  // Keeps the last one for frames that ask for the same. One thread at a time may call it, and use
+  // what it returns.
+  std::shared_ptr<const SubdividedGeometry> subdivided(int subdivide_degrees) const {
+    if (!last_ || subdivide_degrees != last_degrees_) {
+      auto fresh = std::make_shared<SubdividedGeometry>();
+      fresh->subdivision = subdivide(scene, geometry, subdivide_degrees);
+      fresh->memo = std::make_unique<GeometryMemo>(fresh->subdivision.geometry.triangles.size(),
+                                                   scene.lights.size());
+      last_ = std::move(fresh);
+      last_degrees_ = subdivide_degrees;
+    }
+    return last_;
+  }
+
+ private:
+  mutable std::shared_ptr<const SubdividedGeometry> last_;
+  mutable int last_degrees_ = 0;
 };
 
 // All data of a frame before its first triangle is set up. `setup` refers to the other members, so
 // the object cannot be moved.
 struct PreparedFrame {
   std::shared_ptr<const PreparedScene> prepared;
-  Subdivision subdivision;  // of the scene's triangles, by the policy
+  std::shared_ptr<const SubdividedGeometry> subdivided;  // by the policy
   FrameSetup setup;
 
   // Throws InputError if the scene uses what the pipeline does not simulate.
   PreparedFrame(std::shared_ptr<const PreparedScene> prepared_, const FixedPointFormats& formats,
                 const SetupPolicy& policy, Effects effects = Effects::derived)
       : prepared(std::move(prepared_)),
-        subdivision(subdivide(scene(), prepared->geometry, policy.subdivide_degrees)),
+        subdivided(prepared->subdivided(policy.subdivide_degrees)),
         // The analyser does not look into FrameSetup's constructor, which is in another file.
         // NOLINTNEXTLINE(clang-analyzer-optin.cplusplus.UninitializedObject)
-        setup(scene(), subdivision.geometry,
-              {{formats, derive_blocks(formats, scene(), subdivision.geometry, effects)}, policy},
-              effects) {}
+        setup(scene(), geometry(),
+              {{formats, derive_blocks(formats, scene(), geometry(), effects)}, policy}, effects,
+              subdivided->memo.get()) {}
   PreparedFrame(Scene scene_, const FixedPointFormats& formats, const SetupPolicy& policy,
                 Effects effects = Effects::derived)
       : PreparedFrame(std::make_shared<const PreparedScene>(std::move(scene_)), formats, policy,
@@ -43,7 +68,8 @@ struct PreparedFrame {
   PreparedFrame& operator=(const PreparedFrame&) = delete;
 
   const Scene& scene() const { return prepared->scene; }
-  const Geometry& geometry() const { return subdivision.geometry; }
+  const Subdivision& subdivision() const { return subdivided->subdivision; }
+  const Geometry& geometry() const { return subdivision().geometry; }
 };
 
 }  // namespace phongpipe

@@ -26,55 +26,41 @@ FixedLinear round_coefficients(const Linear<double>& q, int fraction_bits, bool&
 // doubles it.
 constexpr double kArithmeticNoise = 2e-11;
 
-// The inputs and constants of setup in the arithmetic of a scalar.
-template <typename T>
-Vector3<T> in(const Vector3<double>& v) {
-  return v.cast<T>();
+// The inputs and constants of setup, rounded.
+Vector3<Rounded> in_rounded(const Vector3<double>& v) {
+  return v.cast<Rounded>();
 }
-template <typename T>
-std::array<T, 3> in(const std::array<double, 3>& v) {
-  return {T(v[0]), T(v[1]), T(v[2])};
+std::array<Rounded, 3> in_rounded(const std::array<double, 3>& v) {
+  return {Rounded(v[0]), Rounded(v[1]), Rounded(v[2])};
 }
-template <typename T>
-Corners<T> in(const Corners<double>& corners) {
-  return {in<T>(corners[0]), in<T>(corners[1]), in<T>(corners[2])};
+Corners<Rounded> in_rounded(const Corners<double>& corners) {
+  return {in_rounded(corners[0]), in_rounded(corners[1]), in_rounded(corners[2])};
 }
-template <typename T>
-TriangleInput<T> in(const TriangleInput<double>& input) {
+TriangleInput<Rounded> in_rounded(const TriangleInput<double>& input) {
   const auto& [x, y, z, normal, eye, light, cue_factor] = input;
-  return {in<T>(x), in<T>(y), in<T>(z), in<T>(normal), in<T>(eye), in<T>(light), in<T>(cue_factor)};
+  return {in_rounded(x),   in_rounded(y),     in_rounded(z),         in_rounded(normal),
+          in_rounded(eye), in_rounded(light), in_rounded(cue_factor)};
 }
-template <typename T>
-LightInput<T> in(const LightInput<double>& input) {
+LightInput<Rounded> in_rounded(const LightInput<double>& input) {
   const auto& [to_light, eye, halfway, attenuation, spot_axis, spot_exponent, fold, sharpness] =
       input.terms;
-  return {{in<T>(to_light), in<T>(eye), in<T>(halfway), in<T>(attenuation), in<T>(spot_axis),
-           T(spot_exponent), T(fold), T(sharpness)},
-          in<T>(input.diffuse_scale),
-          T(input.specular_scale),
-          T(input.gate_scale)};
+  return {{in_rounded(to_light), in_rounded(eye), in_rounded(halfway), in_rounded(attenuation),
+           in_rounded(spot_axis), Rounded(spot_exponent), Rounded(fold), Rounded(sharpness)},
+          in_rounded(input.diffuse_scale),
+          Rounded(input.specular_scale),
+          Rounded(input.gate_scale)};
 }
 
-double value(double x) {
-  return x;
+SeriesRange<double> values(const SeriesRange<Rounded>& range) {
+  return {range.low.value(), range.high.value()};
 }
-double value(const Rounded& x) {
-  return x.value();
+Quadratic<double> values(const Quadratic<Rounded>& t) {
+  return {t.t0.value(), t.t1.value(), t.t2.value(), t.t3.value(), t.t4.value(), t.t5.value()};
 }
-template <typename T>
-SeriesRange<double> values(const SeriesRange<T>& range) {
-  return {value(range.low), value(range.high)};
+Linear<double> values(const Linear<Rounded>& q) {
+  return {q.a.value(), q.b.value(), q.c.value()};
 }
-template <typename T>
-Quadratic<double> values(const Quadratic<T>& t) {
-  return {value(t.t0), value(t.t1), value(t.t2), value(t.t3), value(t.t4), value(t.t5)};
-}
-template <typename T>
-Linear<double> values(const Linear<T>& q) {
-  return {value(q.a), value(q.b), value(q.c)};
-}
-template <typename T>
-TriangleCoefficients<double> values(const TriangleCoefficients<T>& t) {
+TriangleCoefficients<double> values(const TriangleCoefficients<Rounded>& t) {
   return {{values(t.diffuse[0]), values(t.diffuse[1]), values(t.diffuse[2])},
           values(t.specular),
           values(t.gate),
@@ -85,6 +71,13 @@ TriangleCoefficients<double> values(const TriangleCoefficients<T>& t) {
 }  // namespace
 
 SetupEngine::SetupEngine(const FrameSetup& frame) : frame_(&frame) {}
+
+GeometryMemo::Triangle& SetupEngine::known(std::uint32_t triangle, std::uint32_t pass,
+                                           GeometryMemo::Triangle& otherwise) const {
+  GeometryMemo* const memo = frame_->memo;
+  GeometryMemo::Triangle* const found = memo == nullptr ? nullptr : memo->triangle(triangle, pass);
+  return found == nullptr ? otherwise : *found;
+}
 
 TriangleInput<double> SetupEngine::input(std::uint32_t triangle, std::uint32_t pass, int x,
                                          int y) const {
@@ -112,7 +105,10 @@ TriangleCoefficients<double> SetupEngine::coefficients(std::uint32_t triangle, s
                                                        int x, int y) const {
   const MaterialSetup& material =
       frame_->material(pass, frame_->geometry->triangles[triangle].material);
-  return setup_triangle(material.plan, input(triangle, pass, x, y), material.light);
+  SeriesPlan plan = material.plan;
+  GeometryMemo::Triangle alone;
+  return compute_in_double(plan, material.light, input(triangle, pass, x, y),
+                           known(triangle, pass, alone).whole, [](const auto&...) {});
 }
 
 SeriesPlan SetupEngine::simplified_plan(const MaterialSetup& material,
@@ -167,15 +163,34 @@ void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
   }
 }
 
-template <typename T>
-TriangleCoefficients<double> SetupEngine::compute(SeriesPlan& plan, const MaterialSetup& material,
-                                                  const TriangleInput<double>& vertices,
-                                                  int longest_row) const {
-  const TriangleInput<T> triangle = in<T>(vertices);
-  const LightInput<T> light = in<T>(material.light);
-  const TriangleBounds<T> bounds = bound_triangle(plan, triangle, light);
-  leave_out(plan, material, vertices, values(bounds.light), values(bounds.highlight), longest_row);
-  return values(setup_triangle(plan, triangle, light, bounds));
+template <typename LeaveOut>
+TriangleCoefficients<double> SetupEngine::compute_in_double(SeriesPlan& plan,
+                                                            const LightInput<double>& light,
+                                                            const TriangleInput<double>& vertices,
+                                                            GeometryMemo::Series& known,
+                                                            const LeaveOut& leave_out) const {
+  const TriangleBounds<double>& bounds =
+      known.bounds(vertices, plan, [&] { return bound_triangle(plan, vertices, light); });
+  leave_out(bounds.light, bounds.highlight);
+  const Interpolator<double> interpolate(vertices.x, vertices.y);
+  const CosineSeries<double>& series = known.series(
+      plan, [&] { return cosine_series(plan, interpolate, vertices, light.terms, bounds); });
+  TriangleCoefficients<double> result = linear_coefficients(plan, interpolate, vertices);
+  scale_series(plan, light, series, result);
+  return result;
+}
+
+template <typename LeaveOut>
+TriangleCoefficients<double> SetupEngine::compute_rounded(SeriesPlan& plan,
+                                                          const LightInput<double>& light,
+                                                          const TriangleInput<double>& vertices,
+                                                          const LeaveOut& leave_out) const {
+  const Rounded::Precision precision(frame_->configuration.mantissa_bits);
+  const TriangleInput<Rounded> rounded_vertices = in_rounded(vertices);
+  const LightInput<Rounded> rounded_light = in_rounded(light);
+  const TriangleBounds<Rounded> bounds = bound_triangle(plan, rounded_vertices, rounded_light);
+  leave_out(values(bounds.light), values(bounds.highlight));
+  return values(setup_triangle(plan, rounded_vertices, rounded_light, bounds));
 }
 
 TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
@@ -189,13 +204,17 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
   setup.material = &frame_->material(pass, frame_->geometry->triangles[triangle].material);
   const TriangleInput<double> vertices = input(triangle, pass, x, y);
   SeriesPlan plan = simplified_plan(*setup.material, vertices);
-  TriangleCoefficients<double> exact;
-  if (configuration.mantissa_bits == kDoubleMantissaBits) {
-    exact = compute<double>(plan, *setup.material, vertices, longest_row);
-  } else {
-    const Rounded::Precision precision(configuration.mantissa_bits);
-    exact = compute<Rounded>(plan, *setup.material, vertices, longest_row);
-  }
+  const auto leave_out_of_plan = [&](const SeriesRange<double>& light_range,
+                                     const SeriesRange<double>& highlight) {
+    leave_out(plan, *setup.material, vertices, light_range, highlight, longest_row);
+  };
+  const LightInput<double>& light = setup.material->light;
+  GeometryMemo::Triangle alone;
+  const TriangleCoefficients<double> exact =
+      configuration.mantissa_bits == kDoubleMantissaBits
+          ? compute_in_double(plan, light, vertices, known(triangle, pass, alone).set_up,
+                              leave_out_of_plan)
+          : compute_rounded(plan, light, vertices, leave_out_of_plan);
   setup.plan = plan;
   if (frame_->effects == Effects::all) {
     // The same numbers, at the cost of the whole computation.

@@ -43,15 +43,24 @@ class SetupEngine {
 
  private:
   TriangleInput<double> input(std::uint32_t triangle, std::uint32_t pass, int x, int y) const;
+  // What the frame's memo has of a triangle, or `otherwise` if it has no place for it.
+  GeometryMemo::Triangle& known(std::uint32_t triangle, std::uint32_t pass,
+                                GeometryMemo::Triangle& otherwise) const;
   // The material's plan, with constant series if all normals are equal.
   SeriesPlan simplified_plan(const MaterialSetup& material,
                              const TriangleInput<double>& vertices) const;
-  // Computes in the arithmetic of the scalar T. Removes series from the plan that provably change
-  // no pixel.
-  template <typename T>
-  TriangleCoefficients<double> compute(SeriesPlan& plan, const MaterialSetup& material,
-                                       const TriangleInput<double>& vertices,
-                                       int longest_row) const;
+  // Both compute the unrounded coefficients; `leave_out` removes series from the plan by their
+  // bounds. In double, only what is not known of the triangle is computed.
+  template <typename LeaveOut>
+  TriangleCoefficients<double> compute_in_double(SeriesPlan& plan, const LightInput<double>& light,
+                                                 const TriangleInput<double>& vertices,
+                                                 GeometryMemo::Series& known,
+                                                 const LeaveOut& leave_out) const;
+  template <typename LeaveOut>
+  TriangleCoefficients<double> compute_rounded(SeriesPlan& plan, const LightInput<double>& light,
+                                               const TriangleInput<double>& vertices,
+                                               const LeaveOut& leave_out) const;
+  // Removes series that provably change no pixel.
   void leave_out(SeriesPlan& plan, const MaterialSetup& material,
                  const TriangleInput<double>& vertices, const SeriesRange<double>& light,
                  const SeriesRange<double>& highlight, int longest_row) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/shading/exact_power.h"
 #include "model/shading/screen_interpolator.h"
 
 namespace phongpipe {
@@ -56,7 +57,7 @@ Color reflect(const Scene& scene, const Material& material, const Vec3& normal,
     if (scene.shading.highlight == Highlight::reflection) {  // R·V, R = 2(N·L)N − L
       cosine = 2 * n_dot_l * cosine - light.light.dot(light.highlight);
     }
-    const double power = std::pow(std::max(0.0, cosine), material.shininess);
+    const double power = exact_power(std::max(0.0, cosine), material.shininess);
     sum += light.color * (material.diffuse * n_dot_l + material.specular * power);
   }
   return sum;

@@ -105,19 +105,25 @@ struct TriangleCoefficients {
   Linear<T> cue_factor;
 };
 
-// `bounds`: from bound_triangle(), if computed.
+// The linear series of the plan, all the rest being 0.
 template <typename T>
-TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInput<T>& triangle,
-                                       const LightInput<T>& light,
-                                       const TriangleBounds<T>& bounds = {}) {
-  const Interpolator<T> interpolate(triangle.x, triangle.y);
+TriangleCoefficients<T> linear_coefficients(const SeriesPlan& plan,
+                                            const Interpolator<T>& interpolate,
+                                            const TriangleInput<T>& triangle) {
   TriangleCoefficients<T> result;
   const auto interpolated = [&](const std::array<T, 3>& q) {
     return interpolate(q[0], q[1], q[2]);
   };
   if (plan.depth) result.depth = interpolated(triangle.z);
   if (plan.depth_cue) result.cue_factor = interpolated(triangle.cue_factor);
+  return result;
+}
 
+// The plan's series of N·L and of the highlight, as cosines. `bounds`: from bound_triangle().
+template <typename T>
+CosineSeries<T> cosine_series(const SeriesPlan& plan, const Interpolator<T>& interpolate,
+                              const TriangleInput<T>& triangle, const ReflectionTerms<T>& terms,
+                              const TriangleBounds<T>& bounds) {
   const auto constant = [&](const Vector3<T>& m) {
     const Vector3<T>& normal = triangle.normal[0];
     return Quadratic<T>{normal.dot(m) * rsqrt(normal.dot(normal)), 0, 0, 0, 0, 0};
@@ -127,24 +133,27 @@ TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInp
     form.fit = fit;
     form.wanted = wanted;
     return reflection_series(form, interpolate, triangle.normal, triangle.eye, triangle.light,
-                             light.terms,
-                             bounds.squared_length ? &*bounds.squared_length : nullptr);
+                             terms, bounds.squared_length ? &*bounds.squared_length : nullptr);
   };
   const bool together = plan.light() == SeriesForm::fitted && plan.specular == SeriesForm::fitted &&
                         plan.highlight_fit() == plan.form.fit;
+  if (together) return series_of(plan.form.fit, {true, true});
   CosineSeries<T> series;
-  if (together) {
-    series = series_of(plan.form.fit, {true, true});
-  } else {
-    if (plan.light() == SeriesForm::constant) series.light = constant(light.terms.to_light);
-    if (plan.light() == SeriesForm::fitted) {
-      series.light = series_of(plan.form.fit, {true, false}).light;
-    }
-    if (plan.specular == SeriesForm::constant) series.highlight = constant(light.terms.halfway);
-    if (plan.specular == SeriesForm::fitted) {
-      series.highlight = series_of(plan.highlight_fit(), {false, true}).highlight;
-    }
+  if (plan.light() == SeriesForm::constant) series.light = constant(terms.to_light);
+  if (plan.light() == SeriesForm::fitted) {
+    series.light = series_of(plan.form.fit, {true, false}).light;
   }
+  if (plan.specular == SeriesForm::constant) series.highlight = constant(terms.halfway);
+  if (plan.specular == SeriesForm::fitted) {
+    series.highlight = series_of(plan.highlight_fit(), {false, true}).highlight;
+  }
+  return series;
+}
+
+// Scales cosines to the units of the plan's series.
+template <typename T>
+void scale_series(const SeriesPlan& plan, const LightInput<T>& light, const CosineSeries<T>& series,
+                  TriangleCoefficients<T>& result) {
   if (is_present(plan.diffuse)) {
     for (int c = 0; c < plan.channels; ++c) {
       const auto channel = static_cast<std::size_t>(c);
@@ -153,6 +162,17 @@ TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInp
   }
   if (is_present(plan.gate)) result.gate = series.light.scaled(light.gate_scale);
   if (is_present(plan.specular)) result.specular = series.highlight.scaled(light.specular_scale);
+}
+
+// All of it.
+template <typename T>
+TriangleCoefficients<T> setup_triangle(const SeriesPlan& plan, const TriangleInput<T>& triangle,
+                                       const LightInput<T>& light,
+                                       const TriangleBounds<T>& bounds) {
+  const Interpolator<T> interpolate(triangle.x, triangle.y);
+  TriangleCoefficients<T> result = linear_coefficients(plan, interpolate, triangle);
+  scale_series(plan, light, cosine_series(plan, interpolate, triangle, light.terms, bounds),
+               result);
   return result;
 }
 

@@ -6,7 +6,7 @@ namespace phongpipe::by_span {
 
 // Clocks without a pixel and without a span that are simulated before time jumps to the next span.
 // More than a datapath holds, so that one that emits what nobody asked for is caught.
-constexpr Cycle kIdleClocks = 16;
+constexpr Cycle kIdleClocks = 8;
 
 void ClockedPixelDatapath::run() {
   Cycle last_progress = 0, idle_clocks = 0;

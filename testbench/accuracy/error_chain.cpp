@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "model/fixed/color_sum.h"
+#include "model/shading/exact_power.h"
 #include "model/shading/phong.h"
 
 namespace phongpipe {
@@ -103,7 +104,7 @@ class PassChain {
   // Of a value of the specular series, in addresses.
   Color full_highlight(double address) const {
     const double x = std::clamp(address / configuration_.rom_words(), 0.0, 1.0);
-    return kOutputMax * table_->specular * std::pow(x, table_->shininess);
+    return kOutputMax * table_->specular * exact_power(x, table_->shininess);
   }
   bool open(const std::array<double, 3>& diffuse, double gate) const {
     switch (configuration_.gate) {

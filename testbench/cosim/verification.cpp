@@ -117,7 +117,7 @@ bool same_pixels(const Fingerprint& a, const Fingerprint& b) {
 }
 
 void describe_frame(const PreparedFrame& frame, VerificationResult& result) {
-  const Subdivision& subdivision = frame.subdivision;
+  const Subdivision& subdivision = frame.subdivision();
   result.configuration = frame.setup.configuration;
   result.width = frame.setup.width;
   result.height = frame.setup.height;
@@ -221,7 +221,7 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
       implementation.locate_mismatches(frame.setup, model.frame.framebuffer, found);
       if (found.first_divergence) {
         std::uint32_t& triangle = found.first_divergence->triangle;
-        triangle = frame.subdivision.whole[triangle];
+        triangle = frame.subdivision().whole[triangle];
       }
     }
     return found;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -127,16 +128,33 @@ std::string base64(std::string_view bytes) {
   return text;
 }
 
-// "images": those that differ, once; "pictures": of each row that has some, their labels and their
-// places among the images.
+// A file name as a relative URL.
+std::string file_url(std::string_view name) {
+  std::string url;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool plain = std::isalnum(byte) != 0 || c == '-' || c == '_' || c == '.';
+    url += plain ? std::string(1, c) : fmt::format("%{:02X}", byte);
+  }
+  return url;
+}
+
+// "images": URLs, those that differ once; "pictures": of each row that has some, their labels and
+// their places among the images.
 std::string json_pictures(const PageContent& content) {
   std::unordered_map<std::string_view, std::size_t> places;
   std::vector<std::string> images, rows;
   for (const auto& [row, pictures] : content.pictures) {
     std::vector<std::string> items;
     for (const PagePicture& picture : pictures) {
-      const auto [place, added] = places.emplace(picture.png, images.size());
-      if (added) images.push_back(fmt::format("\"{}\"", base64(picture.png)));
+      const bool inside = picture.file.empty();
+      const auto [place, added] =
+          places.emplace(inside ? picture.png : picture.file, images.size());
+      if (added) {
+        images.push_back(fmt::format("\"{}\"", inside
+                                                   ? "data:image/png;base64," + base64(picture.png)
+                                                   : file_url(picture.file)));
+      }
       items.push_back(fmt::format("[{},{}]", json_text(picture.label), place->second));
     }
     rows.push_back(fmt::format("\"{}\":{}", row, json_list(items)));

@@ -1,5 +1,6 @@
 // A page of results for a browser: two measures against each other with their Pareto front,
-// parallel coordinates, a table, pictures. It is one file, and asks no network for anything.
+// parallel coordinates, a table, pictures. It is one file, but for pictures that
+// lie beside it, and asks no network for anything.
 #pragma once
 
 #include <map>
@@ -25,9 +26,11 @@ struct PageColumn {
 // campaign records, with its description.
 PageColumn page_column(std::string_view name);
 
+// A PNG: its bytes, which become part of the page, or the name of a file beside the page.
 struct PagePicture {
   std::string label;
-  std::string png;  // the bytes of a PNG file
+  std::string png;
+  std::string file;
 };
 
 struct PageContent {

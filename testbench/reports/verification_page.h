@@ -13,7 +13,7 @@ namespace phongpipe {
 
 class VerificationPage {
  public:
-  // A result, and the files that write_pictures() has written of it.
+  // A result, and the files of write_pictures(), which belong into the page's folder.
   void add(const RunRequest& request, const VerificationResult& result,
            const std::array<std::filesystem::path, 3>& pictures);
   // A scene that cannot be verified.

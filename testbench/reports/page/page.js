@@ -638,7 +638,7 @@
     $('pictures').replaceChildren(...pictures.map(([label, place]) => {
       const figure = document.createElement('figure'), image = document.createElement('img');
       const caption = document.createElement('figcaption');
-      image.src = 'data:image/png;base64,' + data.images[place];
+      image.src = data.images[place];
       image.alt = `${label} of ${nameOf(row)}`;
       caption.textContent = label === 'error map'
           ? 'error map: black 0, blue 1, red 2, yellow 3, white 4 LSB and more; green: not covered'

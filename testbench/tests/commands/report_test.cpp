@@ -69,7 +69,8 @@ TEST_F(Reports, ShowsEveryRunWithPicturesOfTheFront) {
     const auto& pictures = page["pictures"].at(std::to_string(row));
     ASSERT_EQ(pictures.size(), 2U);
     const std::string png = page["images"][pictures[0][1].get<std::size_t>()];
-    EXPECT_EQ(png.rfind("iVBORw0KGgo", 0), 0U) << "the first bytes of a PNG file";
+    EXPECT_EQ(png.rfind("data:image/png;base64,iVBORw0KGgo", 0), 0U)
+        << "the first bytes of a PNG file";
   }
   const ResultTable runs = table();
   const auto bits = values(page, "datapath.rom_address_bits");

@@ -85,7 +85,7 @@ TEST(ResultPage, NothingFromOutsideEndsTheScriptOrBecomesAnElement) {
   page.columns[0] = {hostile, hostile, hostile, PageColumn::Kind::input, Metric::Better::neither};
   for (auto& row : page.rows) row[0] = hostile;
   page.commands.front() = "phongpipe verify '" + hostile + "'";
-  page.pictures[0] = {{hostile, hostile}};
+  page.pictures[0] = {{hostile, hostile}, {hostile, "", hostile}};
   const std::string text = result_page(page);
   EXPECT_EQ(occurrences(text, "</script"), scripts);
   EXPECT_EQ(occurrences(text, "<b>"), 0U);
@@ -101,9 +101,17 @@ TEST(ResultPage, KeepsPicturesOnce) {
   page.pictures[2] = {{"result", "abc"}, {"error map", "abcd"}};
   page.pictures[5] = {{"result", "abc"}};
   const nlohmann::json data = data_of(result_page(page));
-  EXPECT_EQ(data["images"], nlohmann::json({"YWJj", "YWJjZA=="}));
+  EXPECT_EQ(data["images"],
+            nlohmann::json({"data:image/png;base64,YWJj", "data:image/png;base64,YWJjZA=="}));
   EXPECT_EQ(data["pictures"]["2"], nlohmann::json::parse(R"([["result",0],["error map",1]])"));
   EXPECT_EQ(data["pictures"]["5"], nlohmann::json::parse(R"([["result",0]])"));
+}
+
+TEST(ResultPage, NamesFilesBesideIt) {
+  PageContent page = small_page();
+  page.pictures[0] = {{"result", "", "a b%\"\xff.png"}};
+  const nlohmann::json data = data_of(result_page(page));
+  EXPECT_EQ(data["images"], nlohmann::json({"a%20b%25%22%FF.png"}));
 }
 
 TEST(ResultPage, AsksNoNetworkForAnything) {

@@ -1,0 +1,53 @@
+// geometry_memo: frames that share what is known of their geometry are those that compute it anew.
+#include "model/fixed/geometry_memo.h"
+
+#include <gtest/gtest.h>
+
+#include "model/fixed/prepared_frame.h"
+#include "testbench/accuracy/accuracy.h"
+#include "testbench/cases/named_scene.h"
+#include "testbench/cases/random_run.h"
+#include "testbench/cosim/run.h"
+#include "testbench/hardware/hardware.h"
+
+namespace phongpipe {
+namespace {
+
+TEST(GeometryMemo, FramesOfOneSceneAreAsIfEachWereAlone) {
+  constexpr std::uint64_t kSeed = 17, kScenes = 12, kFrames = 8;
+  SCOPED_TRACE(kSeed);
+  std::size_t compared = 0;
+  for (std::uint64_t s = 0; s < kScenes; ++s) {
+    const Scene scene = load_named_scene(random_run(kSeed, s).scene, {});
+    const auto shared = std::make_shared<const PreparedScene>(scene);
+    for (std::uint64_t f = 0; f < kFrames; ++f) {
+      SCOPED_TRACE(testing::Message() << "scene " << s << ", hardware " << f);
+      const RunRequest request = random_run(kSeed, s * kFrames + f);
+      std::vector<std::string> settings;  // of the hardware
+      for (const std::string& setting : request.settings) {
+        if (setting.rfind("scene.", 0) != 0) settings.push_back(setting);
+      }
+      const Hardware hardware = load_hardware(request.hardware, settings);
+      const Effects effects = f % 4 == 0 ? Effects::all : Effects::derived;
+      std::optional<PreparedFrame> with_others, alone;
+      try {
+        with_others.emplace(shared, hardware.formats, hardware.setup, effects);
+        alone.emplace(scene, hardware.formats, hardware.setup, effects);
+      } catch (const InputError&) {
+        continue;  // this hardware does not shade this scene
+      }
+      const ModelFrame a = run_model(with_others->setup), b = run_model(alone->setup);
+      ASSERT_EQ(a.colors(), b.colors());
+      ASSERT_EQ(a.triangles.left_out, b.triangles.left_out);
+      const Accuracy error = measure_accuracy(with_others->setup, a, false),
+                     same = measure_accuracy(alone->setup, b, false);
+      ASSERT_EQ(error.total.sum_of_squares, same.total.sum_of_squares);
+      ASSERT_EQ(error.series.sum_of_squares, same.series.sum_of_squares);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, kScenes * kFrames / 2);
+}
+
+}  // namespace
+}  // namespace phongpipe
