@@ -14,8 +14,7 @@
 
 #include "model/scene/input_error.h"
 #include "testbench/campaign/batch.h"
-#include "testbench/cases/named_scene.h"
-#include "testbench/cosim/scene_hash.h"
+#include "testbench/campaign/loader.h"
 #include "testbench/rtl/rtl_builder.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/tool_error.h"
@@ -48,73 +47,12 @@ class SharedFlag {
   volatile bool* flag_;
 };
 
-// Loads each scene and each preset once. The scene of a run depends on its name and on those of its
-// settings that begin with `scene.`.
-class Loader {
- public:
-  struct LoadedScene {
-    Scene scene;
-    std::uint64_t hash = 0;
-    std::size_t order = 0;                        // in which scenes were loaded
-    std::weak_ptr<const PreparedScene> prepared;  // as long as someone uses it
-  };
-
-  // Throws InputError.
-  LoadedScene& scene(const RunRequest& request) {
-    std::string key = request.scene;
-    for (const std::string& setting : request.settings) {
-      if (setting.compare(0, kSceneSection.size(), kSceneSection) == 0) key += "\n" + setting;
-    }
-    const auto found = scenes_.find(key);
-    if (found != scenes_.end()) return found->second;
-    LoadedScene loaded;
-    loaded.scene = load_named_scene(request.scene, request.settings);
-    loaded.hash = scene_hash(loaded.scene);
-    loaded.order = scenes_.size();
-    return scenes_.emplace(key, std::move(loaded)).first->second;
-  }
-
-  // Whether scene, preset and technology are there, as far as the request names them without
-  // changes of the scene. Throws InputError for a name that nothing has: a mistake of the whole
-  // campaign.
-  void check_names(const RunRequest& request) {
-    const auto is_own = [](const std::string& setting, std::string_view start) {
-      return setting.compare(0, start.size(), start) == 0;
-    };
-    bool changed = false;
-    for (const std::string& setting : request.settings) {
-      constexpr std::string_view kCard = "technology=";
-      if (is_own(setting, kCard) && cards_.insert(setting).second) {
-        load_technology(setting.substr(kCard.size()));
-      }
-      changed = changed || is_own(setting, kSceneSection);
-    }
-    if (!changed) scene(request);
-    preset(request.hardware);
-  }
-
-  Hardware hardware(const RunRequest& request) {
-    return override_hardware(preset(request.hardware), request.settings);
-  }
-
- private:
-  const Hardware& preset(const std::string& name) {
-    auto found = presets_.find(name);
-    if (found == presets_.end()) found = presets_.emplace(name, load_hardware(name, {})).first;
-    return found->second;
-  }
-
-  std::map<std::string, LoadedScene> scenes_;
-  std::set<std::string> cards_;
-  std::map<std::string, Hardware> presets_;
-};
-
 // A run that is not stored yet. Small, for workers are forked from a process that holds them all:
 // what can be computed again from the request is not kept.
 struct PendingRun {
   std::size_t index = 0;  // in the campaign
   std::string identity;
-  Loader::LoadedScene* scene = nullptr;
+  const LoadedScene* scene = nullptr;
   bool alone = false;          // in a batch of its own, for another run ended the process before
   bool second_chance = false;  // its first process ended during the run
   std::size_t rtl = 0;         // the same for runs whose user chose the same parameters of the RTL
@@ -214,12 +152,7 @@ class Campaign {
       const auto found = known.find(run.identity);
       const bool enough =
           found != known.end() && is_enough(found->second, runs_[run.index].request.options);
-      result_.progress.known += enough ? 1 : 0;
-      if (enough && found->second.outcome != Outcome::passed &&
-          found->second.outcome != Outcome::refused) {
-        ++result_.progress.known_failures;
-        result_.progress.known_crashes += found->second.outcome == Outcome::crashed ? 1 : 0;
-      }
+      if (enough) ++result_.progress.known[found->second.outcome];
       return enough;
     };
     for (const auto& [run, reason] : refused_) {
@@ -267,7 +200,7 @@ class Campaign {
       PendingRun run = std::move(queue_.front());
       queue_.pop_front();
       try {
-        const auto scene = prepared(*run.scene);
+        const auto scene = loader_.prepared(*run.scene);
         if (batch.empty() || batch.back().scene != scene) {
           triangles += scene->geometry.triangles.size();
         }
@@ -283,15 +216,6 @@ class Campaign {
     active.worker = start_batch(batch, options_.limits.memory_mib, stop_.get());
     active.since = Clock::now();
     workers_.push_back(std::move(active));
-  }
-
-  std::shared_ptr<const PreparedScene> prepared(Loader::LoadedScene& scene) {
-    last_scene_ = scene.prepared.lock();
-    if (!last_scene_) {
-      last_scene_ = std::make_shared<const PreparedScene>(scene.scene);
-      scene.prepared = last_scene_;
-    }
-    return last_scene_;
   }
 
   void wait_for_messages() {
@@ -381,26 +305,11 @@ class Campaign {
     if (options_.overflow_is_refusal && outcome == Outcome::failed && result.bucket == kOverflow) {
       outcome = Outcome::refused;
     }
-    CampaignProgress& progress = result_.progress;
-    switch (outcome) {
-      case Outcome::passed:
-        ++progress.passed;
-        compare_with_best(result);
-        break;
-      case Outcome::failed:
-        ++progress.failed;
-        break;
-      case Outcome::refused:
-        ++progress.refused;
-        ++result_.refusals[result.bucket == kOverflow ? "values do not fit their registers"
-                                                      : result.message];
-        break;
-      case Outcome::crashed:
-        ++progress.crashed;
-        break;
-      case Outcome::timed_out:
-        ++progress.timed_out;
-        break;
+    ++result_.progress.done[outcome];
+    if (outcome == Outcome::passed) compare_with_best(result);
+    if (outcome == Outcome::refused) {
+      ++result_.refusals[result.bucket == kOverflow ? "values do not fit their registers"
+                                                    : result.message];
     }
     if (outcome != Outcome::passed && outcome != Outcome::refused) {
       result_.not_passed.push_back(stored);
@@ -412,8 +321,7 @@ class Campaign {
   void compare_with_best(const RunResult& result) {
     static const std::size_t error = metric_index("max_lsb"),
                              time = metric_index("frame_ns_per_pixel");
-    const BestRun run{std::get<double>(result.metrics[error]),
-                      std::get<double>(result.metrics[time])};
+    const BestRun run{*number_of(result.metrics[error]), *number_of(result.metrics[time])};
     std::optional<BestRun>& best = result_.progress.best;
     if (!best || std::tie(run.max_lsb, run.frame_ns_per_pixel) <
                      std::tie(best->max_lsb, best->frame_ns_per_pixel)) {
@@ -448,8 +356,7 @@ class Campaign {
   std::uint64_t rtl_hash_ = 0;  // of the RTL, which is the same for all runs
   std::deque<PendingRun> queue_;
   std::vector<ActiveWorker> workers_;
-  std::vector<StoredRun> finished_;                  // not stored yet
-  std::shared_ptr<const PreparedScene> last_scene_;  // keeps it for the next batch
+  std::vector<StoredRun> finished_;  // not stored yet
   SharedFlag stop_;
   bool stopping_ = false;
   Clock::time_point start_;
@@ -462,13 +369,7 @@ CampaignProgress CampaignProgress::operator+(const CampaignProgress& later) cons
   CampaignProgress sum = later;
   sum.total += total;
   sum.known += known;
-  sum.known_failures += known_failures;
-  sum.known_crashes += known_crashes;
-  sum.passed += passed;
-  sum.failed += failed;
-  sum.refused += refused;
-  sum.crashed += crashed;
-  sum.timed_out += timed_out;
+  sum.done += done;
   sum.seconds += seconds;
   if (best && (!later.best || best->max_lsb < later.best->max_lsb)) sum.best = best;
   return sum;

@@ -1,8 +1,11 @@
 // Does the runs of a campaign on all cores, and records their results as they come.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,20 +36,38 @@ struct BestRun {
   double max_lsb = 0, frame_ns_per_pixel = 0;
 };
 
+// Numbers of runs by their outcome.
+class OutcomeCounts {
+ public:
+  std::uint64_t& operator[](Outcome outcome) { return counts_[static_cast<std::size_t>(outcome)]; }
+  std::uint64_t operator[](Outcome outcome) const {
+    return counts_[static_cast<std::size_t>(outcome)];
+  }
+  std::uint64_t all() const { return std::accumulate(counts_.begin(), counts_.end(), 0UL); }
+  std::uint64_t failures() const {
+    return all() - (*this)[Outcome::passed] - (*this)[Outcome::refused];
+  }
+  OutcomeCounts& operator+=(const OutcomeCounts& others) {
+    for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += others.counts_[i];
+    return *this;
+  }
+
+ private:
+  std::array<std::uint64_t, kOutcomes> counts_{};
+};
+
 // State of a campaign.
 struct CampaignProgress {
-  std::uint64_t total = 0;           // runs of the shard
-  std::uint64_t known = 0;           // of them that were stored before
-  std::uint64_t known_failures = 0;  // of these that failed, crashed or timed out
-  std::uint64_t known_crashes = 0;   // of these that crashed
-  std::uint64_t passed = 0, failed = 0, refused = 0, crashed = 0, timed_out = 0;  // done now
+  std::uint64_t total = 0;      // runs of the shard
+  OutcomeCounts known;          // of them that were stored before
+  OutcomeCounts done;           // done now
   double seconds = 0;           // since the first run was begun
   std::optional<BestRun> best;  // of those done now
 
   // Of two parts of a campaign, one done after the other.
   CampaignProgress operator+(const CampaignProgress& later) const;
-  std::uint64_t failures() const { return failed + crashed + timed_out + known_failures; }
-  std::uint64_t done() const { return passed + failed + refused + crashed + timed_out; }
+  std::uint64_t failures() const { return known.failures() + done.failures(); }
+  std::uint64_t left() const { return total - known.all() - done.all(); }
 };
 
 struct CampaignResult {

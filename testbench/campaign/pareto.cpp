@@ -32,7 +32,7 @@ std::vector<std::size_t> pareto_front(const std::vector<std::optional<ParetoPoin
 std::string scene_text(const ResultTable& table, std::size_t row) {
   std::string text = table.text(row, "scene");
   for (const std::string& column : table.columns) {
-    if (column.compare(0, kSceneSection.size(), kSceneSection) != 0) continue;
+    if (!is_scene_key(column)) continue;
     text += fmt::format(", {}={}", column.substr(kSceneSection.size()), table.text(row, column));
   }
   return text;

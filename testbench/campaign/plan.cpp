@@ -278,7 +278,7 @@ std::vector<PlanPoint> sampled_points(const Plan& plan, std::uint64_t size) {
 }  // namespace
 
 std::string full_key(const std::string& key) {
-  if (key.compare(0, kSceneSection.size(), kSceneSection) == 0) return key;
+  if (is_scene_key(key)) return key;
   if (const auto* setting = setting_called(key)) return setting->name();
   const std::vector<std::string> known = known_keys();
   if (std::find(known.begin(), known.end(), key) != known.end()) return key;

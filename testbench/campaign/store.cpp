@@ -45,7 +45,6 @@ Enum from_name(const std::string& text) {
   }
   throw InputError(fmt::format("unknown word {}", printable(text)));
 }
-constexpr int kOutcomes = 5, kStrengths = 4;
 Outcome outcome_from(const std::string& text) {
   return from_name<Outcome, kOutcomes>(text);
 }
@@ -217,10 +216,7 @@ std::string ResultTable::text(std::size_t row, std::string_view name) const {
 
 std::optional<double> ResultTable::number(std::size_t row, std::string_view name) const {
   const auto* value = std::get_if<MetricValue>(&rows[row][column(name)]);
-  if (value == nullptr) return std::nullopt;
-  if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
-  if (const auto* number = std::get_if<double>(value)) return *number;
-  return std::nullopt;
+  return value == nullptr ? std::nullopt : number_of(*value);
 }
 
 std::string exact_text(const Cell& cell) {

@@ -35,7 +35,7 @@ Scene scene_of_seed(const std::string& name, const std::vector<std::string>& ove
 Scene load_named_scene(const std::string& name, const std::vector<std::string>& settings) {
   std::vector<std::string> overrides;
   for (const std::string& setting : settings) {
-    if (starts_with(setting, kSceneSection)) {
+    if (is_scene_key(setting)) {
       overrides.push_back(setting.substr(kSceneSection.size()));
     }
   }

@@ -111,7 +111,7 @@ class Session {
         [&] { return interrupted != 0 || late(); });
     total_.progress = before + result.progress;
     // Runs for which there was no time do not count.
-    if (late()) total_.progress.total = total_.progress.known + total_.progress.done();
+    if (late()) total_.progress.total -= total_.progress.left();
     total_.interrupted = interrupted != 0 || (result.interrupted && !late());
     identities_ = std::move(result.identities);
     for (const auto& [reason, count] : result.refusals) total_.refusals[reason] += count;
@@ -126,10 +126,11 @@ class Session {
     add(runs, [] { return false; });
     const CampaignProgress& after = total_.progress;
     CampaignProgress sum = before;
-    sum.failed = after.failed;
-    sum.crashed = after.crashed;
-    sum.timed_out = after.timed_out;
-    sum.passed -= std::min(sum.passed, after.failures() - before.failures());
+    for (const Outcome outcome : {Outcome::failed, Outcome::crashed, Outcome::timed_out}) {
+      sum.done[outcome] = after.done[outcome];
+    }
+    sum.done[Outcome::passed] -=
+        std::min(sum.done[Outcome::passed], after.failures() - before.failures());
     sum.seconds = after.seconds;
     total_.progress = sum;
   }
@@ -164,7 +165,8 @@ class Session {
     if (command_.finish) command_.finish(*store_);
     if (interrupted != 0) return kInterrupted;
     const CampaignProgress& p = total_.progress;
-    return p.crashed + p.known_crashes > 0 ? kToolFailed : p.failures() > 0 ? kCheckFailed : 0;
+    const bool crashed = p.done[Outcome::crashed] + p.known[Outcome::crashed] > 0;
+    return crashed ? kToolFailed : p.failures() > 0 ? kCheckFailed : 0;
   }
 
  private:

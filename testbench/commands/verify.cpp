@@ -39,17 +39,6 @@ std::vector<std::string> picture_names(const std::vector<std::string>& scenes) {
   return names;
 }
 
-// The options that were given, but for where results go.
-std::string options_text(const Options& options) {
-  const VerificationOptions& v = options.verification;
-  std::string text;
-  if (options.hardware.hardware != "default") text += " --hardware " + options.hardware.hardware;
-  for (const std::string& setting : options.hardware.overrides) text += " --set " + setting;
-  if (v.stall_percent > 0) text += fmt::format(" --stall {} --seed {}", v.stall_percent, v.seed);
-  if (!v.rtl_sources.empty()) text += fmt::format(" --rtl {}", v.rtl_sources.string());
-  return text;
-}
-
 class Verifier {
  public:
   explicit Verifier(const Options& options)
@@ -82,7 +71,7 @@ class Verifier {
           scene, hardware_, options_.verification,
           [&](const std::string& what) { progress_(fmt::format("{}: {}", scene.source, what)); });
       progress_.clear();
-      show(result, name);
+      show(scene, result, name);
       if (!options_.pictures.empty()) {
         page_.add(request_of(scene), result, picture_files(options_.pictures, name));
       }
@@ -100,11 +89,11 @@ class Verifier {
     }
   }
 
-  void show(const VerificationResult& result, const std::string& name) const {
+  void show(const Scene& scene, const VerificationResult& result, const std::string& name) const {
     ReportStyle style;
     style.color = color_wanted();
     style.verbose = options_.verbose;
-    style.options = options_text(options_);
+    style.command = command_of(request_of(scene));
     if (!options_.json.empty() && options_.json != "-") {
       style.more.push_back(printable(options_.json));
     }
@@ -151,6 +140,15 @@ class Verifier {
   int status_ = 0;
 };
 
+void add_run_option(CLI::App& command, const RunOption& option, VerificationOptions& options) {
+  const auto put = [&option, &options](const std::string& text) { option.put(options, text); };
+  command
+      .add_option_function<std::string>("--" + std::string(option.name), put,
+                                        std::string(option.meaning))
+      ->type_name(std::string(option.type))
+      ->default_str(option.get(options));
+}
+
 int verify_scenes(Options options) {
   options.verification.pictures = !options.pictures.empty();
   return Verifier(options).run();
@@ -166,11 +164,7 @@ void add_verify(CLI::App& application, Run& run) {
       ->required()
       ->type_name("SCENE");
   VerificationOptions& v = options->verification;
-  command
-      ->add_option("--budget", v.budget_ns, "Nanoseconds that a pixel of the whole frame may take")
-      ->capture_default_str()
-      ->type_name("NS")
-      ->check(positive_number());
+  for (const RunOption& option : run_options()) add_run_option(*command, option, v);
   command
       ->add_option("--out", options->pictures,
                    "Folder for result, exact Phong and error map (PNG), and for a page of them")
@@ -181,24 +175,6 @@ void add_verify(CLI::App& application, Run& run) {
       ->type_name("FILE");
   command->add_flag("-v,--verbose", options->verbose,
                     "Tell settings, effects and all metrics after the answer");
-  add_choice<Detail>(*command, "--detail", v.detail,
-                     {{"span", Detail::span}, {"cycle", Detail::cycle}}, "span",
-                     "SystemC by the span, or by every clock (slower)");
-  command
-      ->add_option("--stall", v.stall_percent,
-                   "Random back-pressure: per cent of pixels the framebuffer stalls at")
-      ->type_name("0-100")
-      ->check(CLI::Range(0, 100).description(""));
-  command->add_option("--seed", v.seed, "Of the random back-pressure")
-      ->capture_default_str()
-      ->type_name("N");
-  add_choice<EffectsToVerify>(*command, "--effects", v.effects,
-                              {{"scene", EffectsToVerify::scene},
-                               {"all", EffectsToVerify::all},
-                               {"both", EffectsToVerify::both}},
-                              "scene",
-                              "Build and simulate what the scene's effects need, everything there "
-                              "is, or both and compare them");
   command->add_option("--rtl", v.rtl_sources, "Folder of the RTL to verify, if not the installed")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory.description(""));

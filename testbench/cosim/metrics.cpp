@@ -195,6 +195,12 @@ std::size_t metric_index(std::string_view name) {
   return static_cast<std::size_t>(found - all.begin());
 }
 
+std::optional<double> number_of(const MetricValue& value) {
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return static_cast<double>(*whole);
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  return std::nullopt;
+}
+
 std::string metric_text(const MetricValue& value) {
   if (std::holds_alternative<std::monostate>(value)) return "-";
   if (const double* number = std::get_if<double>(&value)) return fmt::format("{:.4g}", *number);

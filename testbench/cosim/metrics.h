@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -29,6 +30,8 @@ const std::vector<Metric>& metrics();
 // The place of a metric in metrics(). Throws std::out_of_range if there is none of that name.
 std::size_t metric_index(std::string_view name);
 
+// The value as a number, if there is one.
+std::optional<double> number_of(const MetricValue& value);
 // The value for people: whole numbers with separators, others with 4 digits, - for no value.
 std::string metric_text(const MetricValue& value);
 

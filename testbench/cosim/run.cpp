@@ -122,23 +122,30 @@ Failure failure_of(const VerificationResult& r) {
 
 const std::vector<RunOption>& run_options() {
   static const std::vector<RunOption> all = {
-      {"detail", [](const Options& o) { return word(kDetails, o.detail); },
+      {"detail", "span|cycle", "SystemC by the span, or by every clock (slower)",
+       [](const Options& o) { return word(kDetails, o.detail); },
        [](Options& o, const std::string& text) {
          o.detail = choice<Detail>("detail", text, kDetails);
        }},
-      {"stall", [](const Options& o) { return std::to_string(o.stall_percent); },
+      {"stall", "0-100", "Random back-pressure: per cent of pixels the framebuffer stalls at",
+       [](const Options& o) { return std::to_string(o.stall_percent); },
        [](Options& o, const std::string& text) {
          o.stall_percent = static_cast<int>(whole_number("stall", text, 0, 100));
        }},
-      {"seed", [](const Options& o) { return std::to_string(o.seed); },
+      {"seed", "N", "Of the random back-pressure",
+       [](const Options& o) { return std::to_string(o.seed); },
        [](Options& o, const std::string& text) {
          o.seed = static_cast<std::uint32_t>(whole_number("seed", text, 0, 0xffffffff));
        }},
-      {"effects", [](const Options& o) { return word(kEffects, o.effects); },
+      {"effects", "scene|all|both",
+       "Build and simulate what the scene's effects need, everything there is, or both and compare "
+       "them",
+       [](const Options& o) { return word(kEffects, o.effects); },
        [](Options& o, const std::string& text) {
          o.effects = choice<EffectsToVerify>("effects", text, kEffects);
        }},
-      {"budget", [](const Options& o) { return fmt::format("{}", o.budget_ns); },
+      {"budget", "NS", "Nanoseconds that a pixel of the whole frame may take",
+       [](const Options& o) { return fmt::format("{}", o.budget_ns); },
        [](Options& o, const std::string& text) {
          const auto number = parse_number(text);
          if (!number || *number <= 0) {
@@ -244,6 +251,10 @@ std::string_view name(Outcome outcome) {
   static constexpr std::string_view kNames[] = {"passed", "failed", "refused", "crashed",
                                                 "timed_out"};
   return kNames[static_cast<std::size_t>(outcome)];
+}
+
+std::string_view words_of(Outcome outcome) {
+  return outcome == Outcome::timed_out ? "timed out" : name(outcome);
 }
 
 std::string_view name(VerifiedBy verified_by) {

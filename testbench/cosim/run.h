@@ -26,7 +26,7 @@ struct RunRequest {
 
 // An option of `verify` that belongs to a run: --NAME VALUE.
 struct RunOption {
-  std::string_view name;
+  std::string_view name, type, meaning;
   std::string (*get)(const VerificationOptions&);
   // Throws InputError if the text is no value of the option.
   void (*put)(VerificationOptions&, const std::string& text);
@@ -59,10 +59,13 @@ std::string identity_of(const std::string& canonical_text);
 
 // `failed`: a check of the verification failed. `refused`: the scene or the hardware is not legal.
 enum class Outcome { passed, failed, refused, crashed, timed_out };
-std::string_view name(Outcome outcome);
+constexpr int kOutcomes = 5;
+std::string_view name(Outcome outcome);      // timed_out, say
+std::string_view words_of(Outcome outcome);  // timed out, for people
 
 // How pixels were verified, from the weakest to the strongest.
 enum class VerifiedBy { nothing, model, superset, native };
+constexpr int kStrengths = 4;
 std::string_view name(VerifiedBy verified_by);
 VerifiedBy verified_by(RtlToVerify rtl);
 

@@ -140,7 +140,7 @@ Hardware load_hardware(const std::string& name, const std::vector<std::string>& 
 Hardware override_hardware(Hardware hardware, const std::vector<std::string>& overrides) {
   std::string technology;
   for (const std::string& text : overrides) {
-    if (text.compare(0, kSceneSection.size(), kSceneSection) != 0) {
+    if (!is_scene_key(text)) {
       apply_override(hardware, text, technology);
     }
   }

@@ -33,6 +33,9 @@ Hardware override_hardware(Hardware hardware, const std::vector<std::string>& ov
 
 // Keys of --set that change the scene: scene.light.0.color=…
 constexpr std::string_view kSceneSection = "scene.";
+inline bool is_scene_key(std::string_view key) {
+  return key.substr(0, kSceneSection.size()) == kSceneSection;
+}
 
 // Replaces the settings left to the scene (number of channels, source of the gate) by those that
 // the scene requires.

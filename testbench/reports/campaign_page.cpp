@@ -123,8 +123,7 @@ std::vector<std::string> summary_of(const ResultTable& table, bool alternatives)
     const std::size_t count = outcomes[std::string(name(outcome))];
     const bool always = outcome <= Outcome::refused;
     if (!always && count == 0) continue;
-    counts.push_back(fmt::format("{} {}", count_text(count),
-                                 outcome == Outcome::timed_out ? "timed out" : name(outcome)));
+    counts.push_back(fmt::format("{} {}", count_text(count), words_of(outcome)));
   }
   std::vector<std::string> lines =
       alternatives ? front_texts(table) : std::vector<std::string>{extremes_text(table)};

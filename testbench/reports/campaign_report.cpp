@@ -23,11 +23,11 @@ std::string count_text(std::uint64_t count) {
 // ", 3 failed" for each outcome that occurred.
 std::string outcomes(const CampaignProgress& p) {
   std::string text;
-  for (const auto& [count, what] : {std::pair<std::uint64_t, const char*>{p.failed, "failed"},
-                                    {p.crashed, "crashed"},
-                                    {p.timed_out, "timed out"},
-                                    {p.refused, "refused"}}) {
-    if (count > 0) text += fmt::format(", {} {}", count_text(count), what);
+  for (const Outcome outcome :
+       {Outcome::failed, Outcome::crashed, Outcome::timed_out, Outcome::refused}) {
+    if (const std::uint64_t count = p.done[outcome]) {
+      text += fmt::format(", {} {}", count_text(count), words_of(outcome));
+    }
   }
   return text;
 }
@@ -43,7 +43,7 @@ std::vector<std::string> varied_keys(const ResultTable& table,
                                      const std::vector<std::string>& keys) {
   std::vector<std::string> varied;
   for (const std::string& key : keys) {
-    if (key == "scene" || key.compare(0, kSceneSection.size(), kSceneSection) == 0) continue;
+    if (key == "scene" || is_scene_key(key)) continue;
     for (std::size_t row = 1; row < table.rows.size(); ++row) {
       if (table.text(row, key) == table.text(0, key)) continue;
       varied.push_back(key);
@@ -96,8 +96,7 @@ void add_front(std::string& text, const Store& store) {
 std::pair<double, std::size_t> size_of(const StoredRun& run) {
   static const std::size_t pixels = metric_index("pixels");
   const bool has_metrics = !run.result.metrics.empty();
-  return {has_metrics ? static_cast<double>(std::get<std::int64_t>(run.result.metrics[pixels]))
-                      : std::numeric_limits<double>::max(),
+  return {has_metrics ? *number_of(run.result.metrics[pixels]) : std::numeric_limits<double>::max(),
           run.command.size()};
 }
 
@@ -138,9 +137,9 @@ std::string csv_cell(const std::string& text) {
 }  // namespace
 
 std::string progress_line(const CampaignProgress& p) {
-  const std::uint64_t done = p.done(), left = p.total - p.known - done;
+  const std::uint64_t done = p.done.all(), left = p.left();
   std::string text =
-      fmt::format("{} of {}{}", count_text(p.known + done), count_text(p.total), outcomes(p));
+      fmt::format("{} of {}{}", count_text(p.total - left), count_text(p.total), outcomes(p));
   if (done > 0 && p.seconds > 0) {
     const double rate = static_cast<double>(done) / p.seconds;
     text +=
@@ -164,11 +163,12 @@ std::string campaign_text(const CampaignResult& result, const Store& store, cons
         "{}", verdict);
   }
   std::string text = fmt::format("{} {}  {} of {} runs passed{}", verdict, store.kind(),
-                                 count_text(p.passed), count_text(p.total - p.known), outcomes(p));
-  if (p.known > 0) text += fmt::format("; {} were known", count_text(p.known));
-  if (p.known_failures > 0) {
+                                 count_text(p.done[Outcome::passed]),
+                                 count_text(p.total - p.known.all()), outcomes(p));
+  if (p.known.all() > 0) text += fmt::format("; {} were known", count_text(p.known.all()));
+  if (p.known.failures() > 0) {
     text += fmt::format(", {} of them failed; --retry-failed does these again",
-                        count_text(p.known_failures));
+                        count_text(p.known.failures()));
   }
   text += fmt::format("; {}\n", duration(p.seconds));
   add_failures(text, result);
@@ -176,8 +176,8 @@ std::string campaign_text(const CampaignResult& result, const Store& store, cons
   if (store.kind() == "sweep") add_front(text, store);
   if (file == Store::kInMemory) return text;
   if (result.interrupted) {
-    text += fmt::format("  go on    the same command does the other {} runs\n",
-                        count_text(p.total - p.known - p.done()));
+    text +=
+        fmt::format("  go on    the same command does the other {} runs\n", count_text(p.left()));
   }
   text +=
       fmt::format("  more     phongpipe export {0} --csv -, phongpipe report {0} -o report.html\n",

@@ -29,8 +29,8 @@ PageColumn page_column(std::string_view name);
 // A PNG: its bytes, which become part of the page, or the name of a file beside the page.
 struct PagePicture {
   std::string label;
-  std::string png;
-  std::string file;
+  std::string png = {};
+  std::string file = {};
 };
 
 struct PageContent {

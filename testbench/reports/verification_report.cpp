@@ -9,6 +9,7 @@
 #include "testbench/cosim/metrics_json.h"
 #include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
+#include "testbench/system/terminal.h"
 
 namespace phongpipe {
 namespace {
@@ -84,12 +85,6 @@ std::pair<std::string_view, double> largest_link(const Accuracy& a) {
                            [](const auto& x, const auto& y) { return x.second < y.second; });
 }
 
-// The command that verifies the same once more; `more` is appended.
-std::string command_text(const VerificationResult& r, const ReportStyle& style,
-                         const std::string& more) {
-  return fmt::format("phongpipe verify {}{}{}", r.scene, style.options, more);
-}
-
 void report_implementation(Page& page, const char* name, const ImplementationResult& found,
                            const VerificationResult& r) {
   if (found.agrees()) return;
@@ -143,9 +138,8 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
   }
   if (!r.passed()) {
     page.line("again",
-              command_text(
-                  r, style,
-                  r.options.detail == Detail::cycle ? " --verbose" : " --detail cycle --verbose"));
+              printable(style.command) +
+                  (r.options.detail == Detail::cycle ? " --verbose" : " --detail cycle --verbose"));
   }
 }
 
@@ -190,11 +184,6 @@ void for_each_block_metric(const VerificationResult& r, Visit visit) {
   }
 }
 
-double as_double(const MetricValue& value) {
-  const auto* const whole = std::get_if<std::int64_t>(&value);
-  return whole != nullptr ? static_cast<double>(*whole) : std::get<double>(value);
-}
-
 void report_effects(Page& page, const VerificationResult& r) {
   page.plain("effects");
   page.line("used", fmt::format("{}", fmt::join(r.effects.used, ", ")));
@@ -210,8 +199,8 @@ void report_effects(Page& page, const VerificationResult& r) {
   page.plain("hardware for the scene, with every effect, and the difference");
   for_each_block_metric(
       r, [&](const Metric& metric, const MetricValue& own, const MetricValue& full) {
-        const double all = as_double(full);
-        const double percent = all > 0 ? std::round(100 * (as_double(own) / all - 1)) : 0;
+        const double all = *number_of(full);
+        const double percent = all > 0 ? std::round(100 * (*number_of(own) / all - 1)) : 0;
         page.plain(fmt::format("  {:<27} {:>14} {:>14} {:+5.0f} %", metric.name, metric_text(own),
                                metric_text(full), percent == 0 ? 0.0 : percent));
       });

@@ -26,12 +26,13 @@ TEST_F(Program, BadUsageIsOneLineAndTwo) {
   expect_refused({"verify", "sphere", "--set", "anchor=pixel"}, "one of triangle, span");
   expect_refused({"verify", "sphere", "--set", "technology=nosuch"}, "generic, ice40-hx8k");
   for (const char* budget : {"-3", "0", "nan", "inf"}) {
-    expect_refused({"verify", "sphere", "--budget", budget}, "is not a number above 0");
+    expect_refused({"verify", "sphere", "--budget", budget}, "a number of ns above 0");
   }
-  expect_refused({"verify", "sphere", "--stall", "101"}, "--stall");
+  expect_refused({"verify", "sphere", "--stall", "101"},
+                 "stall = 101: a whole number from 0 to 100");
   expect_refused({"verify", "sphere", "--rtl", "/nosuch"}, "--rtl");
   expect_refused({"verify", "sphere", "--effects", "nonsense"},
-                 "--effects: nonsense is none of scene|all|both");
+                 "effects = nonsense: one of scene, all, both");
   expect_refused({"render", "sphere", "-o", file("a.png"), "--power", "lyon-4"},
                  "use --power with --arithmetic real");
   expect_refused({"render", "sphere"}, "nothing to write");
