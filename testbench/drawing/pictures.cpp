@@ -82,9 +82,9 @@ Rgb error_color(double error) {
   const double weight = at - static_cast<double>(stop);
   Rgb color{};
   for (std::size_t c = 0; c < 3; ++c) {
-    // To the nearest; std::lround costs as much as all the rest.
-    color[c] = static_cast<std::uint8_t>(kStops[stop][c] * (1 - weight) +
-                                         kStops[stop + 1][c] * weight + 0.5);
+    const double value = kStops[stop][c] * (1 - weight) + kStops[stop + 1][c] * weight;
+    // Not below 0; std::lround costs as much as all the rest.
+    color[c] = static_cast<std::uint8_t>(value + 0.5);  // NOLINT(bugprone-incorrect-roundings)
   }
   return color;
 }
