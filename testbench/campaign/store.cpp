@@ -74,6 +74,12 @@ auto guarded(const fs::path& file, Work work) -> decltype(work()) {
       case SQLITE_READONLY:
       case SQLITE_PERM:
         throw InputError(fmt::format("{}: cannot be opened for this ({})", name, error.what()));
+      case SQLITE_FULL:
+      case SQLITE_IOERR:
+        throw InputError(fmt::format(
+            "{}: cannot be written ({}): is the disk full, or the size of files limited? "
+            "What it has is safe; with more room, the same command goes on",
+            name, error.what()));
       default:
         throw ToolError(fmt::format("{}: {}", name, error.what()));
     }

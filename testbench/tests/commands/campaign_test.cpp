@@ -230,6 +230,23 @@ TEST_F(Campaigns, AMergeThatIsRefusedLeavesNothing) {
   expect_refused({"merge", file("a.db"), "-o", ":memory:"}, "not the name of a file");
 }
 
+TEST_F(Campaigns, AFullDiskLosesNothingThatIsStored) {
+  const std::string command = fmt::format(
+      "{} sweep sphere --vary rom_address_bits=6:13 --vary diffuse_fraction_bits=4:19 --rtl off "
+      "--db {}",
+      PHONGPIPE_PROGRAM, file("a.db"));
+  const ProcessOutput full = run_process({"sh", "-c", "ulimit -f 128; " + command});
+  EXPECT_EQ(full.status, 2) << full.text;
+  EXPECT_NE(full.text.find("is the disk full"), std::string::npos) << full.text;
+  const std::size_t stored = table("a.db").rows.size();
+  EXPECT_GT(stored, 0U);
+  EXPECT_LT(stored, 128U);
+  const ProcessOutput rest = run_process({"sh", "-c", command});
+  EXPECT_EQ(rest.status, 0) << rest.text;
+  EXPECT_NE(rest.text.find(fmt::format("{} were known", stored)), std::string::npos) << rest.text;
+  EXPECT_EQ(table("a.db").rows.size(), 128U);
+}
+
 TEST_F(Campaigns, AClosedStandardErrorIsNoReasonToStop) {
   EXPECT_EQ(run_process({"sh", "-c",
                          PHONGPIPE_PROGRAM " regress --random --count 2 --rtl off 2>&- >/dev/null"})
