@@ -8,7 +8,7 @@
 #include "sim/by_span/pixel_datapath.h"
 #include "sim/by_span/setup_engine.h"
 #include "sim/by_span/span_walker.h"
-#include "sim/datapath_pipeline.h"
+#include "sim/datapath_registers.h"
 #include "sim/schedule.h"
 
 namespace phongpipe {
@@ -52,7 +52,7 @@ void simulate_by_clock(FrameContext& context) {
   ClockedFifo<WorkHandle> triangles("triangles", configuration.triangle_fifo);
   ClockedFifo<Span> spans("spans", configuration.span_fifo);
   ClockedFifo<DepthPixel> pixels("pixels", configuration.pixel_fifo);
-  DatapathPipeline own_datapath(context.frame.configuration, context.frame.cue_color);
+  DatapathRegisters own_datapath(context.frame.configuration, context.frame.cue_color);
   ClockedDatapath& datapath =
       context.options.datapath != nullptr ? *context.options.datapath : own_datapath;
   by_clock::SetupEngine setup_engine("setup_engine", context, clk, triangles);

@@ -41,7 +41,7 @@ struct SeriesStart {
 
 class ForwardDifferencer {
  public:
-  explicit ForwardDifferencer(int width) : width_(width) {}
+  explicit ForwardDifferencer(int width = 64) : width_(width) {}
 
   void load(const SeriesStart& start) {
     v_ = wrap_to(start.v, width_);
@@ -53,6 +53,8 @@ class ForwardDifferencer {
     d1_ = wrap_to(wrap_add(d1_, d2_), width_);
   }
   std::int64_t v() const { return v_; }
+  std::int64_t d1() const { return d1_; }
+  std::int64_t d2() const { return d2_; }
 
  private:
   int width_;

@@ -58,7 +58,8 @@ void build_rtl_of(const std::vector<ResolvedRun>& runs) {
   if (configurations.empty()) return;
   try {
     RtlBuildOptions options;
-    options.quick = runs.front().options.rtl == RtlToVerify::native;  // each runs once
+    // Native RTL runs once.
+    if (runs.front().options.rtl == RtlToVerify::native) options.build = RtlBuild::quick;
     options.sources = runs.front().options.rtl_sources;
     build_missing_rtl(configurations, options);
   } catch (const std::exception&) {

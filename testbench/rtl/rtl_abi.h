@@ -28,6 +28,9 @@ struct RtlPorts {
   std::uint16_t rom_address;
   std::uint16_t rom_data[3];
   std::uint8_t cue_color[3];
+  // Called, if not null, when all values of the clock are settled, before its edge.
+  void (*before_edge)(void* user);
+  void* user;
 
   std::uint8_t span_ready, pixel_valid;
   std::uint16_t pixel_x, pixel_y;
@@ -39,6 +42,16 @@ struct RtlPixel {
   std::uint32_t color;
 };
 
+// A signal inside the RTL, or a register array, for as long as the instance lives.
+struct RtlSignal {
+  const char* scope;  // "pixel_datapath.specular.rom"
+  const char* name;
+  void* data;           // of its first element; little-endian, bits above `width` are 0
+  std::uint32_t width;  // bits of an element
+  std::uint32_t bytes;  // from one element to the next
+  std::uint32_t elements;
+};
+
 struct RtlInterface {
   void* (*create)();
   void (*destroy)(void* rtl);
@@ -47,6 +60,9 @@ struct RtlInterface {
   // has left. `pixels` must have room for all of them.
   std::uint64_t (*run)(void* rtl, const std::uint8_t* cue_color, const RtlSpan* spans,
                        std::size_t count, RtlPixel* pixels);
+  // Calls `visit` for every signal; null in libraries that were not built with signals. A written
+  // value holds until the RTL writes it again.
+  void (*visit_signals)(void* rtl, void (*visit)(void* user, const RtlSignal* signal), void* user);
 };
 
 // The interface of the variant with these parameters, written as rtl_parameters_text() has them;

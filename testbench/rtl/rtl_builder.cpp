@@ -174,10 +174,13 @@ std::string variant_name(std::size_t i) {
 }
 
 void verilate(const DatapathConfiguration& configuration, const std::string& prefix,
-              const std::vector<Source>& sources, const fs::path& folder) {
+              const std::vector<Source>& sources, const fs::path& folder, RtlBuild build) {
   std::vector<std::string> command = {
       "verilator", "--cc", "-O3",          "-Wall",          "--Mdir", ".",
       "--prefix",  prefix, "--top-module", "pixel_datapath", "-Irtl"};
+  if (build == RtlBuild::signals) {
+    command.insert(command.end(), {"--public-flat-rw", "--vpi"});
+  }
   for (const auto& [name, value] : rtl_parameters(configuration)) {
     command.push_back(fmt::format("-G{}={}", name, value));
   }
@@ -233,18 +236,20 @@ std::string rtl_parameters_text(const DatapathConfiguration& configuration) {
 // Verilator is a Perl script that mangles others. All that it generates is compiled as one file,
 // for most of the time of a file goes into headers.
 void build_rtl(const std::vector<RtlTarget>& targets, const fs::path& sources_folder,
-               bool quick) try {
+               RtlBuild build) try {
   const fs::path destination = fs::absolute(targets.front().file).parent_path();
   sweep_abandoned(destination);
   const ScratchFolder scratch(destination);
   const fs::path& folder = scratch.path();
   const std::string include = verilator_include(folder);
   const std::vector<Source> sources = copy_sources(sources_folder, folder);
-  std::string unity = "#include \"rtl_shim.h\"\n", choice;
+  std::string unity, choice;
+  if (build == RtlBuild::signals) unity += "#define PHONGPIPE_RTL_SIGNALS\n";
+  unity += "#include \"rtl_shim.h\"\n";
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const DatapathConfiguration& configuration = targets[i].configuration;
     const std::string prefix = variant_name(i);
-    verilate(configuration, prefix, sources, folder);
+    verilate(configuration, prefix, sources, folder, build);
     for (const fs::path& file : generated_files(folder, prefix)) {
       unity += fmt::format("#include \"{}\"\n", file.string());
     }
@@ -265,9 +270,9 @@ void build_rtl(const std::vector<RtlTarget>& targets, const fs::path& sources_fo
   write_text(folder / "unity.cpp", unity);
   const std::string built = "pixel_datapath.so";
   run_or_throw(
-      {"g++", "-std=c++17", quick ? "-O1" : "-O3", "-fPIC", "-shared", "-fvisibility=hidden",
-       "-I" + include, "-I" + include + "/vltstd", "-I.", "-I" + installation().rtl_shim.string(),
-       "-I" + installation().include.string(), "unity.cpp",
+      {"g++", "-std=c++17", build == RtlBuild::fast ? "-O3" : "-O1", "-fPIC", "-shared",
+       "-fvisibility=hidden", "-I" + include, "-I" + include + "/vltstd", "-I.",
+       "-I" + installation().rtl_shim.string(), "-I" + installation().include.string(), "unity.cpp",
        (installation().libraries / "libphongpipe_verilated.a").string(), "-pthread", "-o", built},
       folder, sources);
   for (std::size_t i = 0; i < targets.size(); ++i) {

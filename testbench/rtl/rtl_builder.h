@@ -28,8 +28,12 @@ struct RtlTarget {
 // others takes a quarter of the time that it takes alone. Files appear whole or not at all, even if
 // two processes build them at once. Any characters in paths are allowed. Throws ToolError with the
 // first error message of the tool that failed.
-// `quick`: compile in two thirds of the time to what simulates at two thirds of the speed.
+enum class RtlBuild {
+  fast,     // simulates fast
+  quick,    // compiled in two thirds of the time to what simulates at two thirds of the speed
+  signals,  // with RtlInterface::visit_signals; simulates at a third of the speed
+};
 void build_rtl(const std::vector<RtlTarget>& targets, const std::filesystem::path& sources,
-               bool quick = false);
+               RtlBuild build = RtlBuild::fast);
 
 }  // namespace phongpipe

@@ -34,13 +34,14 @@ class LibraryFiles {
   explicit LibraryFiles(const RtlBuildOptions& options)
       : sources_(options.sources.empty() ? installation().hardware : options.sources),
         kept_(options.destination.empty() ? user_cache() : options.destination),
+        signals_(options.build == RtlBuild::signals ? "signals-" : ""),
         hash_(rtl_hash(sources_)) {}
 
   const fs::path& sources() const { return sources_; }
   // The file, which need not exist.
   fs::path file_of(const DatapathConfiguration& configuration) const {
-    const std::string name =
-        fmt::format("pixel_datapath-{}-{:016x}.so", rtl_parameters_text(configuration), hash_);
+    const std::string name = fmt::format("pixel_datapath-{}{}-{:016x}.so", signals_,
+                                         rtl_parameters_text(configuration), hash_);
     fs::path installed = installation().libraries / "rtl" / name;
     std::error_code none;
     return fs::exists(installed, none) ? installed : kept_ / name;
@@ -48,6 +49,7 @@ class LibraryFiles {
 
  private:
   fs::path sources_, kept_;
+  const char* signals_;
   std::uint64_t hash_;
 };
 
@@ -86,7 +88,7 @@ void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
     options.progress(missing.size() == 1 ? rtl_parameters_text(missing.front().configuration)
                                          : fmt::format("{} configurations", missing.size()));
   }
-  build_rtl(missing, files.sources(), options.quick);
+  build_rtl(missing, files.sources(), options.build);
 }
 
 RtlLibrary::RtlLibrary(const DatapathConfiguration& configuration, const RtlBuildOptions& options) {

@@ -11,6 +11,7 @@
 
 #include "sim/clocked_datapath.h"
 #include "testbench/rtl/rtl_abi.h"
+#include "testbench/rtl/rtl_builder.h"
 #include "testbench/rtl/superset.h"
 
 namespace phongpipe {
@@ -18,7 +19,7 @@ namespace phongpipe {
 struct RtlBuildOptions {
   std::filesystem::path sources;      // folder of the RTL; empty: the installed one
   std::filesystem::path destination;  // where a new library is kept; empty: the user's cache
-  bool quick = false;                 // see build_rtl(); for libraries that run for a moment
+  RtlBuild build = RtlBuild::fast;    // quick: what there is may be fast
   std::function<void(const std::string&)> progress;  // called with what is being built, if anything
 };
 

@@ -4,7 +4,12 @@
 #include "rtl_abi.h"
 
 #include <verilated.h>
+#ifdef PHONGPIPE_RTL_SIGNALS
+#include <verilated_syms.h>
+#endif
 
+#include <cstring>
+#include <string>
 #include <type_traits>
 
 #include "model/fixed/constants.h"
@@ -83,6 +88,7 @@ class Rtl {
       ports.pixel_color = top_.pixel_color;
     }
     if (top_.span_ready) presented_ = nullptr;  // the next span may stand at the same address
+    if (ports.before_edge != nullptr) ports.before_edge(ports.user);
     edge();
   }
 
@@ -108,7 +114,40 @@ class Rtl {
     return clocks;
   }
 
+#ifdef PHONGPIPE_RTL_SIGNALS
+  void visit_signals(void (*visit)(void* user, const RtlSignal* signal), void* user) {
+    for (const auto& [full_name, scope] : *context_.scopeNameMap()) {
+      const char* const below_top = std::strstr(full_name, "pixel_datapath");
+      if (below_top == nullptr || scope->varsp() == nullptr) continue;
+      const std::string name = with_brackets(below_top);
+      for (const auto& [variable_name, variable] : *scope->varsp()) {
+        if (variable.isParam()) continue;
+        RtlSignal signal = {};
+        signal.scope = name.c_str();
+        signal.name = variable_name;
+        signal.data = variable.datap();
+        signal.width = variable.dims() > variable.udims() ? variable.packed().elements() : 1;
+        signal.bytes = variable.entSize();
+        signal.elements = variable.udims() > 0 ? variable.unpacked().elements() : 1;
+        visit(user, &signal);
+      }
+    }
+  }
+#endif
+
  private:
+#ifdef PHONGPIPE_RTL_SIGNALS
+  // Verilator writes the brackets of a generate block's index in letters.
+  static std::string with_brackets(std::string name) {
+    const std::pair<const char*, const char*> spellings[] = {{"__BRA__", "["}, {"__KET__", "]"}};
+    for (const auto& [letters, bracket] : spellings) {
+      for (std::size_t at = 0; (at = name.find(letters)) != std::string::npos;) {
+        name.replace(at, std::strlen(letters), bracket);
+      }
+    }
+    return name;
+  }
+#endif
   void edge() {
     top_.clk = 1;
     top_.eval();
@@ -157,6 +196,14 @@ const RtlInterface kRtlInterface = {
     [](void* rtl, const std::uint8_t* cue_color, const RtlSpan* spans, std::size_t count,
        RtlPixel* pixels) {
       return static_cast<Rtl<Top, Parameters>*>(rtl)->run(cue_color, spans, count, pixels);
-    }};
+    },
+#ifdef PHONGPIPE_RTL_SIGNALS
+    [](void* rtl, void (*visit)(void* user, const RtlSignal* signal), void* user) {
+      static_cast<Rtl<Top, Parameters>*>(rtl)->visit_signals(visit, user);
+    }
+#else
+    nullptr
+#endif
+};
 
 }  // namespace

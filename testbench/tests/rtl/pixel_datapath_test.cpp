@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "sim/datapath_pipeline.h"
+#include "sim/datapath_registers.h"
 #include "testbench/cases/random_datapath.h"
 #include "testbench/rtl/rtl_library.h"
 
@@ -132,7 +132,7 @@ TEST_P(PixelDatapathRtl, EveryClockEqualsSystemCUnderRandomStallsAndResets) {
   SpanSource source(GetParam(), kSeed);
   std::mt19937 random(kSeed);
   RtlDatapath rtl(library_, kCueColor);
-  DatapathPipeline systemc(GetParam(), kCueColor);
+  DatapathRegisters systemc(GetParam(), kCueColor);
   DatapathInputs inputs;
   inputs.table = &source.table();
   for (; inputs.rom_address < GetParam().rom_words(); ++inputs.rom_address) {

@@ -10,7 +10,7 @@
 #include "model/files/scene_file.h"
 #include "model/fixed/model_frame.h"
 #include "model/scene/input_error.h"
-#include "sim/datapath_pipeline.h"
+#include "sim/datapath_registers.h"
 #include "testbench/cases/random_effects.h"
 #include "testbench/cases/recorded_model.h"
 #include "testbench/tests/sim/simulations.h"
@@ -45,7 +45,7 @@ void expect_agreement(const FrameSetup& frame, const PipelineConfiguration& conf
   const Trace by_span = simulate_apart(frame, configuration, options);
   options.detail = Detail::cycle;
   const Trace by_clock = simulate_apart(frame, configuration, options);
-  DatapathPipeline datapath(frame.configuration, frame.cue_color);
+  DatapathRegisters datapath(frame.configuration, frame.cue_color);
   options.datapath = &datapath;
   options.detail = Detail::span;
   const Trace clocked_by_span = simulate_apart(frame, configuration, options);

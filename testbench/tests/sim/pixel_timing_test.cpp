@@ -7,7 +7,7 @@
 #include <deque>
 #include <vector>
 
-#include "sim/datapath_pipeline.h"
+#include "sim/datapath_registers.h"
 #include "testbench/cases/random_frame.h"
 
 namespace phongpipe {
@@ -43,7 +43,7 @@ Times closed_form(const std::vector<Arrival>& arrivals, int depth) {
 Times clock_by_clock(const std::vector<Arrival>& arrivals, int depth) {
   Times times;
   FrameConfiguration configuration;
-  DatapathPipeline datapath(configuration);
+  DatapathRegisters datapath(configuration);
   HighlightTable table;
   table.roms.emplace_back(configuration, 0.5, 20);
   DatapathInputs load;

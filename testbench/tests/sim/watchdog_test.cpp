@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "sim/datapath_pipeline.h"
+#include "sim/datapath_registers.h"
 #include "sim/pipeline.h"
 #include "testbench/cases/random_frame.h"
 #include "testbench/tests/sim/simulations.h"
@@ -72,7 +72,7 @@ TEST_P(Watchdog, ReportsADatapathThatLosesPixels) {
 }
 
 TEST_P(Watchdog, LeavesASlowPipelineAlone) {
-  DatapathPipeline datapath([] {
+  DatapathRegisters datapath([] {
     FrameConfiguration configuration;
     configuration.rom_address_bits = 6;
     return configuration;

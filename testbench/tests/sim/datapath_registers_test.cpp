@@ -1,5 +1,5 @@
 // The SystemC side of pixel_datapath by the clock: exact latency, one pixel a clock, stalls, reset.
-#include "sim/datapath_pipeline.h"
+#include "sim/datapath_registers.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "model/fixed/pixel_datapath.h"
 #include "sim/datapath_driver.h"
 #include "testbench/cases/random_frame.h"
 
@@ -15,9 +16,9 @@ namespace {
 
 constexpr unsigned kSeed = 43;
 
-class DatapathPipelineTest : public testing::Test {
+class DatapathRegistersTest : public testing::Test {
  protected:
-  DatapathPipelineTest() : random_(kSeed), pipeline_(configuration_), values_(configuration_) {
+  DatapathRegistersTest() : random_(kSeed), pipeline_(configuration_), values_(configuration_) {
     table_.roms.emplace_back(configuration_, 0.5, 20);
     values_.load_table(table_);
     for (int i = 0; i < configuration_.rom_words(); ++i) clock(nullptr, false, i);
@@ -58,11 +59,11 @@ class DatapathPipelineTest : public testing::Test {
   Random random_;
   FrameConfiguration configuration_;
   HighlightTable table_;
-  DatapathPipeline pipeline_;
+  DatapathRegisters pipeline_;
   PixelDatapath values_;
 };
 
-TEST_F(DatapathPipelineTest, TheFirstPixelTakesExactlyTheLatency) {
+TEST_F(DatapathRegistersTest, TheFirstPixelTakesExactlyTheLatency) {
   const Span span = make_span(1);
   ASSERT_TRUE(clock(&span, true).span_ready);
   for (int i = 1; i < kDatapathLatency; ++i) {
@@ -74,7 +75,7 @@ TEST_F(DatapathPipelineTest, TheFirstPixelTakesExactlyTheLatency) {
   EXPECT_FALSE(clock(nullptr, true).pixel_valid);
 }
 
-TEST_F(DatapathPipelineTest, OnePixelAClockWithoutBubblesBetweenSpans) {
+TEST_F(DatapathRegistersTest, OnePixelAClockWithoutBubblesBetweenSpans) {
   std::deque<Span> spans;
   std::vector<ShadedPixel> expected;
   for (const int length : {1, 5, 1, 1, 17, 2, 64}) {
@@ -91,7 +92,7 @@ TEST_F(DatapathPipelineTest, OnePixelAClockWithoutBubblesBetweenSpans) {
   EXPECT_TRUE(stream == expected);
 }
 
-TEST_F(DatapathPipelineTest, AStallHoldsTheOutputUntilItIsTaken) {
+TEST_F(DatapathRegistersTest, AStallHoldsTheOutputUntilItIsTaken) {
   const Span span = make_span(20);
   const std::vector<ShadedPixel> expected = pixels_of(span);
   ASSERT_TRUE(clock(&span, false).span_ready);
@@ -107,7 +108,7 @@ TEST_F(DatapathPipelineTest, AStallHoldsTheOutputUntilItIsTaken) {
   }
 }
 
-TEST_F(DatapathPipelineTest, StalledItHoldsAsManyPixelsAsItsLatency) {
+TEST_F(DatapathRegistersTest, StalledItHoldsAsManyPixelsAsItsLatency) {
   std::vector<Span> spans;
   for (int i = 0; i < 10; ++i) spans.push_back(make_span(1));
   std::size_t taken = 0;
@@ -118,7 +119,7 @@ TEST_F(DatapathPipelineTest, StalledItHoldsAsManyPixelsAsItsLatency) {
 }
 
 // The stall's bubbles are closed before it reaches the input.
-TEST_F(DatapathPipelineTest, AStallClosesBubbles) {
+TEST_F(DatapathRegistersTest, AStallClosesBubbles) {
   const Span first = make_span(1), second = make_span(1);
   ASSERT_TRUE(clock(&first, false).span_ready);
   for (int i = 0; i < 10; ++i) clock(nullptr, false);  // the first waits at the output
@@ -130,7 +131,7 @@ TEST_F(DatapathPipelineTest, AStallClosesBubbles) {
   EXPECT_EQ(outputs.pixel, pixels_of(second)[0]);
 }
 
-TEST_F(DatapathPipelineTest, ResetInMidRunDropsPixelsAndKeepsTheTable) {
+TEST_F(DatapathRegistersTest, ResetInMidRunDropsPixelsAndKeepsTheTable) {
   for (int clocks = 0; clocks < 12; ++clocks) {
     const Span dropped = make_span(8), span = make_span(3);
     clock(&dropped, true);
@@ -152,7 +153,7 @@ TEST(DatapathDriver, LoadsATableOnlyWhenEmptyAndOneWordAClock) {
   FrameConfiguration configuration;
   configuration.rom_address_bits = 6;
   const FrameSetup frame(scene, random_geometry(random, scene, 1, 20), configuration);
-  DatapathPipeline pipeline(configuration);
+  DatapathRegisters pipeline(configuration);
   DatapathDriver driver(frame, pipeline);
   std::vector<Span> spans(3);
   const std::vector<std::uint32_t> tables = {1, 1, 0};
