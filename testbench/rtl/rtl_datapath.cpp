@@ -45,6 +45,12 @@ RtlDatapath::~RtlDatapath() {
   interface_->destroy(rtl_);
 }
 
+void RtlDatapath::before_edge(std::function<void()> look) {
+  look_ = std::move(look);
+  ports_.user = &look_;
+  ports_.before_edge = [](void* user) { (*static_cast<std::function<void()>*>(user))(); };
+}
+
 void RtlDatapath::reset() {
   ports_.span = nullptr;
   ports_.rom_write = 0;

@@ -67,7 +67,11 @@ class RtlDatapath : public ClockedDatapath {
   // Writes a table, one word a clock.
   void load_table(const HighlightTable& table);
 
+  // Calls `look` in every clock, when all values are settled, before its edge.
+  void before_edge(std::function<void()> look);
+
   void* rtl() const { return rtl_; }
+  const RtlInterface& interface() const { return *interface_; }
 
  private:
   void write_word(const HighlightTable& table, int address);
@@ -76,6 +80,7 @@ class RtlDatapath : public ClockedDatapath {
   void* rtl_;
   RtlAlignment alignment_;
   RtlPorts ports_ = {};
+  std::function<void()> look_;
   RtlSpan presented_ = {};
   bool presenting_ = false;
 };
