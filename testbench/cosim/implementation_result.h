@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sim/pipeline.h"
+#include "testbench/cosim/lockstep.h"
 
 namespace phongpipe {
 
@@ -47,6 +48,8 @@ struct ImplementationResult {
   // Numbers of pixels that differ from the model, in the stream and in the final frame.
   std::uint64_t stream_mismatches = 0, frame_mismatches = 0;
   std::optional<Divergence> first_divergence;
+  // The register at which RTL differs first, which is the cause of the pixel above.
+  std::optional<SignalDivergence> signal_divergence;
 
   static constexpr auto fields() {
     using R = ImplementationResult;
@@ -54,7 +57,8 @@ struct ImplementationResult {
                            field("processor_seconds", &R::processor_seconds),
                            field("stream_mismatches", &R::stream_mismatches),
                            field("frame_mismatches", &R::frame_mismatches),
-                           field("first_divergence", &R::first_divergence));
+                           field("first_divergence", &R::first_divergence),
+                           field("signal_divergence", &R::signal_divergence));
   }
 
   bool agrees() const {

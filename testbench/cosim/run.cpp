@@ -76,6 +76,17 @@ struct Failure {
   std::string bucket, message;
 };
 
+// "channel[].summation.sum" of "channel[0].summation.sum".
+std::string without_indices(const std::string& name) {
+  std::string result;
+  bool inside = false;
+  for (const char c : name) {
+    inside = c == '[' || (inside && c != ']');
+    if (!inside || c == '[') result += c;
+  }
+  return result;
+}
+
 Failure failure_of(const char* name, const ImplementationResult& found) {
   std::string message = fmt::format(
       "{} differs from the model in {} pixels of the stream and {} of "
@@ -94,6 +105,12 @@ Failure failure_of(const char* name, const ImplementationResult& found) {
     what = d.missing ? "pixel missing" : same_place ? "color" : "position";
   } else if (!found.counts.failure.empty()) {
     what = "stuck";
+  }
+  if (found.signal_divergence) {
+    const SignalDivergence& s = *found.signal_divergence;
+    const std::string signal = without_indices(s.name());
+    message += fmt::format("; {} differs first, in cycle {}", s.name(), s.cycle);
+    return {fmt::format("{}: {}: {}", name, what, signal), message};
   }
   return {fmt::format("{}: {}", name, what), message};
 }

@@ -9,6 +9,7 @@
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
+#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace {
@@ -26,6 +27,8 @@ class Implementation {
 
   // For RTL that is wider than the configuration.
   void align(const RtlAlignment& alignment) { alignment_ = alignment; }
+  // For RTL of the configuration's own: how it was built.
+  void built_by(const RtlBuildOptions& build) { rtl_build_ = &build; }
 
   // Starts the simulation in a child process, which hashes what comes. Call it once.
   void start() {
@@ -73,9 +76,26 @@ class Implementation {
       return to_bytes(result);
     });
     result = from_bytes<ImplementationResult>(child.get());
+    locate_signal(result);
     // The hashes differed: that the second simulation agrees is no agreement.
     if (result.agrees()) {
       result.counts.failure = "simulated twice, it differed from the model only once";
+    }
+  }
+
+  // Simulates once more, in lockstep with the model, and finds the register that differs first.
+  void locate_signal(ImplementationResult& result) const {
+    if (library_ == nullptr || rtl_build_ == nullptr) return;
+    try {
+      RtlBuildOptions build = *rtl_build_;
+      build.build = RtlBuild::signals;
+      const RtlLibrary with_signals(frame_.configuration, build);
+      std::optional<std::uint64_t> index;
+      if (result.first_divergence) index = result.first_divergence->stream_index;
+      result.signal_divergence =
+          find_signal_divergence(frame_, pipeline_, options_, with_signals, index);
+    } catch (const ToolError&) {
+      // The pixel is known all the same.
     }
   }
 
@@ -94,6 +114,7 @@ class Implementation {
   SimulationOptions options_;
   const RtlLibrary* library_;
   RtlAlignment alignment_;
+  const RtlBuildOptions* rtl_build_ = nullptr;
   std::optional<Child> child_;
 };
 
@@ -177,8 +198,8 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   describe_frame(frame, result);
 
   std::optional<RtlLibrary> library;
+  RtlBuildOptions build;
   if (options.rtl != RtlToVerify::off) {
-    RtlBuildOptions build;
     build.sources = options.rtl_sources;
     build.progress = [&](const std::string& what) { show("building the RTL for " + what); };
     library.emplace(rtl_configuration(frame.setup.configuration, options.rtl), build);
@@ -195,6 +216,8 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
     rtl.emplace(frame.setup, hardware.pipeline, simulation, &*library);
     if (options.rtl == RtlToVerify::superset) {
       rtl->align(superset_alignment(frame.setup.configuration));
+    } else {
+      rtl->built_by(build);
     }
   }
   if (!options.one_core) {
@@ -237,7 +260,10 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
     }
     result.full_hardware = FullHardwareResult{full.setup.configuration, found};
   }
-  if (rtl) result.rtl = finish(*rtl);
+  if (rtl) {
+    result.rtl = finish(*rtl);
+    if (result.rtl->agrees() && !result.same_cycles()) rtl->locate_signal(*result.rtl);
+  }
   return result;
 }
 

@@ -108,6 +108,16 @@ void report_implementation(Page& page, const char* name, const ImplementationRes
                                             d.found.x, d.found.y)));
 }
 
+// The register that differs first.
+void report_signal(Page& page, const VerificationResult& r) {
+  if (!r.rtl || !r.rtl->signal_divergence) return;
+  const SignalDivergence& s = *r.rtl->signal_divergence;
+  page.line("cause", page.toned(Tone::bad,
+                                fmt::format("{}: model {}, rtl {} in cycle {}", s.name(),
+                                            hex_text(s.model, s.width), hex_text(s.other, s.width),
+                                            grouped(static_cast<std::uint64_t>(s.cycle)))));
+}
+
 // The lines that tell what does not hold.
 void report_failures(Page& page, const VerificationResult& r, const ReportStyle& style) {
   report_implementation(page, "SystemC", r.systemc, r);
@@ -123,6 +133,7 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
                               grouped(static_cast<std::uint64_t>(r.rtl->counts.frame_cycles)))
                 : std::string("pixels leave SystemC and RTL in other cycles")));
   }
+  report_signal(page, r);
   if (r.full_hardware && !r.full_hardware->systemc.agrees()) {
     page.line("differs",
               page.toned(Tone::bad, fmt::format("{} pixels of hardware with every effect",

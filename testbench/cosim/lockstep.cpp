@@ -1,0 +1,138 @@
+#include "testbench/cosim/lockstep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <systemc>
+
+#include "testbench/system/process.h"
+#include "testbench/system/record_json.h"
+
+namespace phongpipe {
+
+std::string hex_text(std::int64_t value, int width) {
+  const std::uint64_t mask = ~std::uint64_t{0} >> (64 - width);
+  return fmt::format("0x{:0{}x}", static_cast<std::uint64_t>(value) & mask, (width + 3) / 4);
+}
+
+Lockstep::Lockstep(const DatapathConfiguration& configuration, const OutputColor& cue_color,
+                   RtlDatapath& rtl, std::optional<std::uint64_t> stream_index)
+    : configuration_(configuration),
+      model_(configuration, cue_color),
+      rtl_(rtl),
+      signals_(rtl),
+      stream_index_(stream_index) {
+  for (DatapathSignal& signal : datapath_signals(configuration)) {
+    const auto found = RtlRegister::find(signals_, signal);
+    if (!found) continue;  // only the ports of somebody else's RTL are known
+    const bool always = signal.name.find("_valid") != std::string::npos;
+    registers_.push_back({std::move(signal), *found, always});
+  }
+  rtl_.before_edge([this] {
+    compare_table();
+    compare_registers();
+  });
+}
+
+void Lockstep::reset() {
+  rtl_.reset();
+  model_.reset();
+}
+
+void Lockstep::differs(const std::string& block, const std::string& signal, int width,
+                       std::int64_t model, std::int64_t other) {
+  if (model != other && !first_.back()) {
+    first_.back() = SignalDivergence{block, signal, width, cycle_, model, other};
+  }
+}
+
+void Lockstep::compare_registers() {
+  if (first_.back()) return;
+  for (const Register& r : registers_) {
+    if (!r.always && !model_.valid(r.signal.stage)) continue;
+    const std::int64_t model = r.signal.value(model_), other = r.rtl.value();
+    if (model == other) continue;
+    return differs(r.signal.block(), r.signal.name, r.signal.width, model, other);
+  }
+}
+
+void Lockstep::compare_table() {
+  if (!table_written_) return;
+  table_written_ = false;
+  const RtlSignalView* const words = signals_.find("pixel_datapath.specular.rom", "table_words");
+  if (words == nullptr || words->elements != configuration_.rom_words()) return;
+  const int bits = configuration_.rom_data_bits;
+  for (int address = 0; address < words->elements; ++address) {
+    for (int c = 0; c < configuration_.channels; ++c) {
+      differs(words->scope, fmt::format("{}[{}]", words->name, address), bits,
+              model_.table(static_cast<std::size_t>(c))[static_cast<std::size_t>(address)],
+              static_cast<std::int64_t>(words->bits(c * bits, bits, address)));
+    }
+  }
+}
+
+void Lockstep::compare_outputs(const DatapathOutputs& rtl, const DatapathOutputs& model) {
+  const auto port = [this](const char* name, int width, std::int64_t expected, std::int64_t found) {
+    differs("pixel_datapath", name, width, expected, found);
+  };
+  port("span_ready", 1, model.span_ready, rtl.span_ready);
+  port("pixel_valid", 1, model.pixel_valid, rtl.pixel_valid);
+  if (!model.pixel_valid) return;
+  port("pixel_x", kCoordinateBits, model.pixel.x, rtl.pixel.x);
+  port("pixel_y", kCoordinateBits, model.pixel.y, rtl.pixel.y);
+  port("pixel_color", configuration_.channels * kOutputBits, model.pixel.color, rtl.pixel.color);
+}
+
+// What differs in a span may show in a later one only, as a pixel too many does.
+void Lockstep::begin_span(int length) {
+  span_begin_ = span_end_;
+  span_end_ += static_cast<std::uint64_t>(length);
+  if (!stream_index_ || *stream_index_ < span_begin_) return;
+  std::rotate(first_.begin(), first_.begin() + 1, first_.end());
+  first_.back().reset();
+}
+
+std::optional<SignalDivergence> Lockstep::found() const {
+  for (const auto& first : first_) {
+    if (first) return first;
+  }
+  return std::nullopt;
+}
+
+bool Lockstep::is_complete() const {
+  return found() && (!stream_index_ || *stream_index_ < span_end_);
+}
+
+DatapathOutputs Lockstep::clock(const DatapathInputs& inputs) {
+  const DatapathOutputs rtl = rtl_.clock(inputs);  // compares registers before the edge
+  compare_outputs(rtl, model_.outputs(inputs));
+  model_.clock(inputs);
+  table_written_ = table_written_ || inputs.table != nullptr;
+  if (inputs.table != nullptr && inputs.rom_address + 1 < configuration_.rom_words()) {
+    table_written_ = false;  // not complete yet
+  }
+  if (inputs.span != nullptr && rtl.span_ready) begin_span(inputs.span->row.length);
+  if (is_complete()) sc_core::sc_stop();
+  ++cycle_;
+  return rtl;
+}
+
+std::optional<SignalDivergence> find_signal_divergence(const FrameSetup& frame,
+                                                       const PipelineConfiguration& pipeline,
+                                                       const SimulationOptions& simulation,
+                                                       const RtlLibrary& library,
+                                                       std::optional<std::uint64_t> stream_index) {
+  Child child([&] {
+    RtlDatapath rtl(library, frame.cue_color);
+    Lockstep lockstep(frame.configuration, frame.cue_color, rtl, stream_index);
+    SimulationOptions options = simulation;
+    options.detail = Detail::cycle;  // its clocks are the frame's cycles
+    options.datapath = &lockstep;
+    options.observe = [](const ShadedPixel*, const std::int64_t*, std::size_t) {};
+    simulate(frame, pipeline, options);
+    return nlohmann::json(lockstep.found()).dump();
+  });
+  return nlohmann::json::parse(child.get()).get<std::optional<SignalDivergence>>();
+}
+
+}  // namespace phongpipe

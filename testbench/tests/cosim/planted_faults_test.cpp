@@ -1,0 +1,180 @@
+// Stuck bits planted in every register and in the table of the RTL, one at a time: those that
+// change the picture are named at the stage where they were planted.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "model/fixed/prepared_frame.h"
+#include "testbench/cases/named_scene.h"
+#include "testbench/cosim/lockstep.h"
+#include "testbench/cosim/stream_checker.h"
+#include "testbench/hardware/hardware.h"
+#include "testbench/system/process.h"
+#include "testbench/system/record_json.h"
+
+namespace phongpipe {
+namespace {
+
+struct Fault {
+  std::string scope, name;  // of the RTL's signal
+  int element = 0, bit = 0;
+  bool value = false;
+};
+
+// RTL with a bit that keeps its value.
+class FaultyRtl : public RtlDatapath {
+ public:
+  FaultyRtl(const RtlLibrary& library, const OutputColor& cue_color, const Fault& fault)
+      : RtlDatapath(library, cue_color), fault_(fault), signals_(*this) {
+    view_ = signals_.find(fault.scope, fault.name);
+    EXPECT_NE(view_, nullptr) << fault.scope << "." << fault.name;
+  }
+  DatapathOutputs clock(const DatapathInputs& inputs) override {
+    const DatapathOutputs outputs = RtlDatapath::clock(inputs);
+    view_->set_bit(fault_.bit, fault_.value, fault_.element);
+    return outputs;
+  }
+
+ private:
+  Fault fault_;
+  RtlSignals signals_;
+  const RtlSignalView* view_ = nullptr;
+};
+
+class PlantedFaults : public testing::Test {
+ protected:
+  PlantedFaults(const char* scene, const std::vector<std::string>& settings)
+      : hardware_(load_hardware("paper-1k", {})),
+        frame_(load_named_scene(scene, settings), hardware_.formats, hardware_.setup),
+        library_(frame_.setup.configuration, build()) {}
+
+  static RtlBuildOptions build() {
+    RtlBuildOptions options;
+    options.build = RtlBuild::signals;
+    options.destination = PHONGPIPE_RTL_CACHE;
+    return options;
+  }
+
+  // The first pixel at which the picture differs; nothing if none does.
+  std::optional<Divergence> first_pixel(const Fault& fault) {
+    Child child([&] {
+      FaultyRtl rtl(library_, frame_.setup.cue_color, fault);
+      StreamChecker checker(frame_.setup);
+      SimulationOptions options = limited();
+      options.datapath = &rtl;
+      options.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles,
+                            std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) checker.observe(pixels[i], cycles[i]);
+      };
+      const SimulationResult result = simulate(frame_.setup, hardware_.pipeline, options);
+      checker.finish(result.datapath_cycles);
+      return nlohmann::json(checker.first()).dump();
+    });
+    return nlohmann::json::parse(child.get()).get<std::optional<Divergence>>();
+  }
+  std::optional<SignalDivergence> first_signal(const Fault& fault, std::uint64_t stream_index) {
+    Child child([&] {
+      FaultyRtl rtl(library_, frame_.setup.cue_color, fault);
+      const FrameSetup& frame = frame_.setup;
+      Lockstep lockstep(frame.configuration, frame.cue_color, rtl, stream_index);
+      SimulationOptions options = limited();
+      options.detail = Detail::cycle;
+      options.datapath = &lockstep;
+      options.observe = [](const ShadedPixel*, const std::int64_t*, std::size_t) {};
+      simulate(frame, hardware_.pipeline, options);
+      return nlohmann::json(lockstep.found()).dump();
+    });
+    return nlohmann::json::parse(child.get()).get<std::optional<SignalDivergence>>();
+  }
+  static SimulationOptions limited() {
+    SimulationOptions options;
+    options.watchdog_cycles = 10'000;
+    return options;
+  }
+
+  void plant_everywhere() {
+    int planted = 0, shown = 0, named = 0;
+    std::string missed;
+    const auto plant = [&](const Fault& fault, const std::string& signal, DatapathStage stage) {
+      ++planted;
+      const auto pixel = first_pixel(fault);
+      if (!pixel) return;
+      ++shown;
+      const auto found = first_signal(fault, pixel->stream_index);
+      const bool right = found && stage_of(*found) == stage;
+      named += right ? 1 : 0;
+      if (right) return;
+      missed += fmt::format("{}[{}] stuck at {}: named {}\n", signal, fault.bit, fault.value,
+                            found ? found->name() : "nothing");
+    };
+    for (const DatapathSignal& signal : signals_) {
+      std::set<int> bits = {0, signal.width / 2, signal.width - 1};
+      for (const int bit : bits) {
+        for (const bool value : {false, true}) {
+          const bool packed = !signal.packed.empty();
+          const Fault fault = {packed ? "pixel_datapath" : signal.block(),
+                               packed ? signal.packed : signal.name, 0, signal.rtl_lsb + bit,
+                               value};
+          plant(fault, signal.full_name(), signal.stage);
+        }
+      }
+    }
+    for (const int address : {0, 700, 1000}) {
+      for (const int bit : {0, 7}) {
+        for (const bool value : {false, true}) {
+          plant({"pixel_datapath.specular.rom", "table_words", address, bit, value}, "table_words",
+                DatapathStage::read);
+        }
+      }
+    }
+    RecordProperty("planted", planted);
+    RecordProperty("shown", shown);
+    fmt::print("{} of {} faults change the picture, {} of these are named at their stage\n{}",
+               shown, planted, named, missed);
+    EXPECT_GT(shown, planted / 4);
+    EXPECT_GE(named, 0.99 * shown) << missed;
+  }
+
+  DatapathStage stage_of(const SignalDivergence& found) const {
+    if (found.signal.rfind("table_words", 0) == 0) return DatapathStage::read;
+    for (const DatapathSignal& signal : signals_) {
+      if (signal.block() == found.block && signal.name == found.signal) return signal.stage;
+    }
+    ADD_FAILURE() << found.name() << " is no register";
+    return {};
+  }
+
+  Hardware hardware_;
+  PreparedFrame frame_;
+  RtlLibrary library_;
+  std::vector<DatapathSignal> signals_ = datapath_signals(frame_.setup.configuration);
+};
+
+const std::vector<std::string> kSmall = {"scene.image.width=48", "scene.image.height=48",
+                                         "scene.object.0.segments=[10,6]"};
+
+class InGrey : public PlantedFaults {
+ protected:
+  InGrey() : PlantedFaults("sphere", kSmall) {}
+};
+TEST_F(InGrey, AreNamedWhereTheyWerePlanted) {
+  plant_everywhere();
+}
+
+// With three channels, a separate gate series and depth cueing.
+class InColor : public PlantedFaults {
+ protected:
+  InColor()
+      : PlantedFaults("effects/depth-cue",
+                      {"scene.image.width=48", "scene.image.height=48",
+                       "scene.light.0.color=[1,0.8,0.6]", "scene.material.green.diffuse=0"}) {}
+};
+TEST_F(InColor, AreNamedWhereTheyWerePlanted) {
+  ASSERT_TRUE(frame_.setup.configuration.depth_cue);
+  ASSERT_EQ(frame_.setup.configuration.gate, GateSource::series);
+  plant_everywhere();
+}
+
+}  // namespace
+}  // namespace phongpipe
