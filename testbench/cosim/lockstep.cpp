@@ -39,20 +39,28 @@ void Lockstep::reset() {
   model_.reset();
 }
 
-void Lockstep::differs(const std::string& block, const std::string& signal, int width,
-                       std::int64_t model, std::int64_t other) {
-  if (model != other && !first_.back()) {
-    first_.back() = SignalDivergence{block, signal, width, cycle_, model, other};
+void Lockstep::differs(std::uint64_t pixel, SignalDivergence difference) {
+  if (difference.model != difference.other && pixel >= kept_from_) {
+    differences_.emplace(pixel, std::move(difference));
   }
 }
 
+std::uint64_t Lockstep::pixel_in(DatapathStage stage) const {
+  constexpr int kStages = static_cast<int>(DatapathStage::fade) + 1;
+  std::uint64_t pixel = delivered_;
+  for (int later = static_cast<int>(stage) + 1; later < kStages; ++later) {
+    pixel += model_.valid(static_cast<DatapathStage>(later)) ? 1 : 0;
+  }
+  return pixel;
+}
+
 void Lockstep::compare_registers() {
-  if (first_.back()) return;
   for (const Register& r : registers_) {
     if (!r.always && !model_.valid(r.signal.stage)) continue;
     const std::int64_t model = r.signal.value(model_), other = r.rtl.value();
     if (model == other) continue;
-    return differs(r.signal.block(), r.signal.name, r.signal.width, model, other);
+    differs(pixel_in(r.signal.stage),
+            {r.signal.block(), r.signal.name, r.signal.width, cycle_, model, other});
   }
 }
 
@@ -64,55 +72,59 @@ void Lockstep::compare_table() {
   const int bits = configuration_.rom_data_bits;
   for (int address = 0; address < words->elements; ++address) {
     for (int c = 0; c < configuration_.channels; ++c) {
-      differs(words->scope, fmt::format("{}[{}]", words->name, address), bits,
-              model_.table(static_cast<std::size_t>(c))[static_cast<std::size_t>(address)],
-              static_cast<std::int64_t>(words->bits(c * bits, bits, address)));
+      differs(delivered_,
+              {words->scope, fmt::format("{}[{}]", words->name, address), bits, cycle_,
+               model_.table(static_cast<std::size_t>(c))[static_cast<std::size_t>(address)],
+               static_cast<std::int64_t>(words->bits(c * bits, bits, address))});
     }
   }
 }
 
 void Lockstep::compare_outputs(const DatapathOutputs& rtl, const DatapathOutputs& model) {
-  const auto port = [this](const char* name, int width, std::int64_t expected, std::int64_t found) {
-    differs("pixel_datapath", name, width, expected, found);
+  std::uint64_t pixel = delivered_;
+  const auto port = [&](const char* name, int width, std::int64_t expected, std::int64_t found) {
+    differs(pixel, {"pixel_datapath", name, width, cycle_, expected, found});
   };
-  port("span_ready", 1, model.span_ready, rtl.span_ready);
   port("pixel_valid", 1, model.pixel_valid, rtl.pixel_valid);
-  if (!model.pixel_valid) return;
-  port("pixel_x", kCoordinateBits, model.pixel.x, rtl.pixel.x);
-  port("pixel_y", kCoordinateBits, model.pixel.y, rtl.pixel.y);
-  port("pixel_color", configuration_.channels * kOutputBits, model.pixel.color, rtl.pixel.color);
+  if (model.pixel_valid) {
+    port("pixel_x", kCoordinateBits, model.pixel.x, rtl.pixel.x);
+    port("pixel_y", kCoordinateBits, model.pixel.y, rtl.pixel.y);
+    port("pixel_color", configuration_.channels * kOutputBits, model.pixel.color, rtl.pixel.color);
+  }
+  pixel = span_end_;
+  port("span_ready", 1, model.span_ready, rtl.span_ready);
 }
 
-// What differs in a span may show in a later one only, as a pixel too many does.
+// What differs in a span may show in the next one only, as a pixel too many does.
 void Lockstep::begin_span(int length) {
+  if (stream_index_ && *stream_index_ >= span_end_) {
+    kept_from_ = span_begin_;
+    differences_.erase(differences_.begin(), differences_.lower_bound(kept_from_));
+  }
   span_begin_ = span_end_;
   span_end_ += static_cast<std::uint64_t>(length);
-  if (!stream_index_ || *stream_index_ < span_begin_) return;
-  std::rotate(first_.begin(), first_.begin() + 1, first_.end());
-  first_.back().reset();
 }
 
 std::optional<SignalDivergence> Lockstep::found() const {
-  for (const auto& first : first_) {
-    if (first) return first;
-  }
-  return std::nullopt;
-}
-
-bool Lockstep::is_complete() const {
-  return found() && (!stream_index_ || *stream_index_ < span_end_);
+  const auto earliest = std::min_element(
+      differences_.begin(), differences_.end(),
+      [](const auto& a, const auto& b) { return a.second.cycle < b.second.cycle; });
+  if (earliest == differences_.end()) return std::nullopt;
+  return earliest->second;
 }
 
 DatapathOutputs Lockstep::clock(const DatapathInputs& inputs) {
   const DatapathOutputs rtl = rtl_.clock(inputs);  // compares registers before the edge
-  compare_outputs(rtl, model_.outputs(inputs));
-  model_.clock(inputs);
+  const DatapathOutputs model = model_.clock(inputs);
+  compare_outputs(rtl, model);
+  if (model.pixel_valid && inputs.pixel_ready) ++delivered_;
   table_written_ = table_written_ || inputs.table != nullptr;
   if (inputs.table != nullptr && inputs.rom_address + 1 < configuration_.rom_words()) {
     table_written_ = false;  // not complete yet
   }
   if (inputs.span != nullptr && rtl.span_ready) begin_span(inputs.span->row.length);
-  if (is_complete()) sc_core::sc_stop();
+  const bool complete = !stream_index_ || delivered_ > *stream_index_;
+  if (complete && !differences_.empty()) sc_core::sc_stop();
   ++cycle_;
   return rtl;
 }

@@ -2,8 +2,8 @@
 // by clock, and their registers are compared.
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,13 +54,13 @@ class Lockstep : public ClockedDatapath {
     RtlRegister rtl;
     bool always;  // compared even if its stage holds no pixel
   };
+  // The pixel of the stream that a stage holds, or will hold next, in the model.
+  std::uint64_t pixel_in(DatapathStage stage) const;
   void compare_registers();
   void compare_table();
   void compare_outputs(const DatapathOutputs& rtl, const DatapathOutputs& model);
-  void differs(const std::string& block, const std::string& signal, int width, std::int64_t model,
-               std::int64_t other);
+  void differs(std::uint64_t pixel, SignalDivergence difference);
   void begin_span(int length);
-  bool is_complete() const;
 
   DatapathConfiguration configuration_;
   DatapathRegisters model_;
@@ -69,10 +69,12 @@ class Lockstep : public ClockedDatapath {
   std::vector<Register> registers_;
   std::optional<std::uint64_t> stream_index_;
   std::uint64_t span_begin_ = 0, span_end_ = 0;  // pixels of the stream, of the span taken last
+  std::uint64_t delivered_ = 0;                  // by the model
   bool table_written_ = false;                   // and not compared yet
   std::int64_t cycle_ = 0;
-  // What differed first since each of the last spans was taken, the latest last.
-  std::array<std::optional<SignalDivergence>, 3> first_;
+  // What differed first of each pixel, from the span before the last on.
+  std::uint64_t kept_from_ = 0;
+  std::map<std::uint64_t, SignalDivergence> differences_;
 };
 
 // Simulates the frame with the RTL of `library`, which was built with signals, in lockstep with the
