@@ -1,0 +1,361 @@
+#include "testbench/trace/wave_file.h"
+
+#include <fmt/format.h>
+#include <gtkwave/fstapi.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <fstream>
+#include <unordered_map>
+
+#include "model/files/text_file.h"
+#include "model/scene/input_error.h"
+#include "testbench/system/output_file.h"
+#include "testbench/system/terminal.h"
+#include "testbench/system/tool_error.h"
+
+namespace phongpipe {
+namespace fs = std::filesystem;
+namespace {
+
+// Calls begin and end for the scopes between two variables, so that scopes nest.
+template <typename Begin, typename End>
+void change_scope(const std::string& from, const std::string& to, const Begin& begin,
+                  const End& end) {
+  const std::vector<std::string_view> old_parts = split(from, '.'), new_parts = split(to, '.');
+  std::size_t same = 0;
+  while (same < old_parts.size() && same < new_parts.size() &&
+         old_parts[same] == new_parts[same] && !from.empty()) {
+    ++same;
+  }
+  if (!from.empty()) {
+    for (std::size_t i = old_parts.size(); i > same; --i) end();
+  }
+  if (!to.empty()) {
+    for (std::size_t i = same; i < new_parts.size(); ++i) begin(std::string(new_parts[i]));
+  }
+}
+
+class FstWriter : public WaveWriter {
+ public:
+  FstWriter(const fs::path& file, const std::vector<WaveVariable>& variables)
+      : file_(file), partial_(file.string() + fmt::format(".partial-{}", getpid())) {
+    check_writable(file);
+    fst_ = fstWriterCreate(partial_.c_str(), 1);
+    if (fst_ == nullptr) throw InputError(fmt::format("{}: cannot be written", printable(file.string())));
+    fstWriterSetPackType(fst_, FST_WR_PT_LZ4);
+    fstWriterSetTimescale(fst_, -12);
+    fstWriterSetVersion(fst_, "phongpipe");
+    const auto begin = [this](const std::string& name) {
+      fstWriterSetScope(fst_, FST_ST_VCD_MODULE, name.c_str(), nullptr);
+    };
+    const auto end = [this] { fstWriterSetUpscope(fst_); };
+    std::string scope;
+    for (const WaveVariable& variable : variables) {
+      change_scope(scope, variable.scope, begin, end);
+      scope = variable.scope;
+      const std::string range = variable.range();
+      const std::string name = range.empty() ? variable.name : variable.name + " " + range;
+      handles_.push_back(fstWriterCreateVar(
+          fst_, variable.real ? FST_VT_VCD_REAL : FST_VT_VCD_WIRE, FST_VD_IMPLICIT,
+          variable.real ? 8 : static_cast<std::uint32_t>(variable.width), name.c_str(), 0));
+    }
+    change_scope(scope, "", begin, end);
+  }
+  ~FstWriter() override {
+    if (fst_ == nullptr) return;
+    fstWriterClose(fst_);
+    std::error_code ignored;
+    fs::remove(partial_, ignored);
+  }
+
+  void time(std::uint64_t ps) override { fstWriterEmitTimeChange(fst_, ps); }
+  void change(std::size_t index, const std::string& bits) override {
+    fstWriterEmitValueChange(fst_, handles_[index], bits.c_str());
+  }
+  void change(std::size_t index, double value) override {
+    fstWriterEmitValueChange(fst_, handles_[index], &value);
+  }
+  void close() override {
+    fstWriterClose(fst_);
+    fst_ = nullptr;
+    std::error_code error;
+    fs::rename(partial_, file_, error);
+    if (!error) return;
+    std::error_code ignored;
+    fs::remove(partial_, ignored);
+    throw ToolError(fmt::format("{}: {}", printable(file_.string()), error.message()));
+  }
+
+ private:
+  fs::path file_;
+  std::string partial_;
+  void* fst_ = nullptr;
+  std::vector<fstHandle> handles_;
+};
+
+class VcdWriter : public WaveWriter {
+ public:
+  VcdWriter(const fs::path& file, const std::vector<WaveVariable>& variables) : file_(file) {
+    check_writable(file);
+    text_ = "$version phongpipe $end\n$timescale 1 ps $end\n";
+    const auto begin = [this](const std::string& name) {
+      text_ += fmt::format("$scope module {} $end\n", name);
+    };
+    const auto end = [this] { text_ += "$upscope $end\n"; };
+    std::string scope;
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      const WaveVariable& variable = variables[i];
+      change_scope(scope, variable.scope, begin, end);
+      scope = variable.scope;
+      codes_.push_back(code(i));
+      is_bit_.push_back(!variable.real && variable.width == 1);
+      const std::string range = variable.range();
+      text_ += fmt::format("$var {} {} {} {}{}{} $end\n", variable.real ? "real" : "wire",
+                           variable.real ? 64 : variable.width, codes_.back(), variable.name,
+                           range.empty() ? "" : " ", range);
+    }
+    change_scope(scope, "", begin, end);
+    text_ += "$enddefinitions $end\n";
+  }
+
+  void time(std::uint64_t ps) override { text_ += fmt::format("#{}\n", ps); }
+  void change(std::size_t index, const std::string& bits) override {
+    text_ += is_bit_[index] ? fmt::format("{}{}\n", bits, codes_[index])
+                            : fmt::format("b{} {}\n", bits, codes_[index]);
+  }
+  void change(std::size_t index, double value) override {
+    text_ += fmt::format("r{} {}\n", value, codes_[index]);
+  }
+  void close() override { write_text(file_, text_); }
+
+ private:
+  // Printable characters, as short as they can be.
+  static std::string code(std::size_t index) {
+    constexpr std::size_t kFirst = '!', kDigits = '~' - '!' + 1;
+    std::string text;
+    for (++index; index > 0; index = (index - 1) / kDigits) {
+      text += static_cast<char>(kFirst + (index - 1) % kDigits);
+    }
+    return text;
+  }
+
+  fs::path file_;
+  std::string text_;
+  std::vector<std::string> codes_;
+  std::vector<bool> is_bit_;
+};
+
+// Splits "v [9:-16]" and "v[9:-16]" into name and width; without a range the width is given.
+WaveVariable variable_of(const std::string& scope, const std::string& declared, int width,
+                         bool real) {
+  WaveVariable variable;
+  variable.scope = scope;
+  variable.width = width;
+  variable.real = real;
+  std::string_view name = declared;
+  // A range has a colon; an index such as channel[0] has none.
+  const std::size_t bracket = name.rfind('[');
+  if (bracket != std::string_view::npos && name.find(':', bracket) != std::string_view::npos) {
+    name = name.substr(0, bracket);
+  }
+  variable.name = std::string(trimmed(name));
+  return variable;
+}
+
+class VcdParser {
+ public:
+  VcdParser(const std::string& text, WaveReader& reader, const WaveReader::Visit& visit)
+      : text_(text), reader_(reader), visit_(visit) {}
+
+  // False if it is no VCD file.
+  bool read() {
+    for (std::string_view word; next(word);) {
+      if (word == "$enddefinitions") {
+        defined_ = skip_to_end();
+      } else if (word == "$scope") {
+        std::string_view type, name;
+        if (!next(type) || !next(name) || !skip_to_end()) return false;
+        scopes_.emplace_back(name);
+      } else if (word == "$upscope") {
+        if (scopes_.empty() || !skip_to_end()) return false;
+        scopes_.pop_back();
+      } else if (word == "$var") {
+        if (!read_variable()) return false;
+      } else if (word == "$timescale") {
+        if (!read_timescale()) return false;
+      } else if (word == "$dumpvars" || word == "$dumpall" || word == "$dumpon" ||
+                 word == "$dumpoff" || word == "$end") {
+        // Changes follow as everywhere.
+      } else if (word.front() == '$') {
+        if (!skip_to_end()) return false;
+      } else if (!defined_) {
+        return false;
+      } else if (!read_change(word)) {
+        reader_.complete = false;
+        return true;
+      }
+    }
+    reader_.complete = reader_.complete && !text_.empty() && text_.back() == '\n';
+    return defined_;
+  }
+
+ private:
+  bool next(std::string_view& word) {
+    constexpr std::string_view kSpace = " \t\r\n";
+    const std::string_view all = text_;
+    const std::size_t begin = all.find_first_not_of(kSpace, at_);
+    if (begin == std::string_view::npos) return false;
+    const std::size_t end = std::min(all.find_first_of(kSpace, begin), all.size());
+    word = all.substr(begin, end - begin);
+    at_ = end;
+    return true;
+  }
+  bool skip_to_end() {
+    std::string_view word;
+    while (next(word)) {
+      if (word == "$end") return true;
+    }
+    return false;
+  }
+  bool read_timescale() {
+    std::string scale;
+    std::string_view word;
+    while (next(word) && word != "$end") scale += word;
+    std::size_t digits = 0;
+    while (digits < scale.size() && scale[digits] >= '0' && scale[digits] <= '9') ++digits;
+    const auto number = parse_number(scale.substr(0, digits));
+    const std::pair<const char*, double> units[] = {{"s", 1e12},  {"ms", 1e9}, {"us", 1e6},
+                                                    {"ns", 1e3},  {"ps", 1},   {"fs", 1e-3}};
+    for (const auto& [unit, ps] : units) {
+      if (number && scale.substr(digits) == unit) {
+        ps_ = *number * ps;
+        return true;
+      }
+    }
+    return false;
+  }
+  bool read_variable() {
+    std::string_view type, width, code, word;
+    std::string name;
+    if (!next(type) || !next(width) || !next(code)) return false;
+    while (next(word) && word != "$end") name += word;
+    if (word != "$end" || name.empty()) return false;
+    std::string scope;
+    for (const std::string& part : scopes_) scope += scope.empty() ? part : "." + part;
+    const auto bits = parse_integer(width);
+    if (!bits || *bits < 1 || *bits > 1'000'000) return false;
+    places_[std::string(code)].push_back(reader_.variables.size());
+    reader_.variables.push_back(
+        variable_of(scope, name, static_cast<int>(*bits), type == "real"));
+    return true;
+  }
+  bool read_change(std::string_view word) {
+    const char kind = word.front();
+    std::string_view value = word.substr(1), code;
+    if (kind == '#') {
+      const auto time = parse_number(value);
+      if (!time || *time < 0) return false;
+      time_ = static_cast<std::uint64_t>(*time * ps_);
+      return true;
+    }
+    if (kind == 'b' || kind == 'B' || kind == 'r' || kind == 'R') {
+      if (!next(code)) return false;
+    } else {
+      value = word.substr(0, 1);
+      code = word.substr(1);
+    }
+    const auto found = places_.find(std::string(code));
+    if (found == places_.end()) return false;
+    for (const std::size_t index : found->second) visit_(time_, index, std::string(value));
+    return true;
+  }
+
+  const std::string& text_;
+  WaveReader& reader_;
+  const WaveReader::Visit& visit_;
+  std::size_t at_ = 0;
+  bool defined_ = false;
+  double ps_ = 1;  // in a unit of time
+  std::uint64_t time_ = 0;
+  std::vector<std::string> scopes_;
+  std::unordered_map<std::string, std::vector<std::size_t>> places_;  // of variables, by code
+};
+
+// False if it is no FST file.
+bool read_fst(const fs::path& file, WaveReader& reader, const WaveReader::Visit& visit) {
+  void* const fst = fstReaderOpen(file.c_str());
+  if (fst == nullptr) return false;
+  std::vector<std::string> scopes;
+  std::unordered_map<fstHandle, std::vector<std::size_t>> places;
+  while (const fstHier* const item = fstReaderIterateHier(fst)) {
+    if (item->htyp == FST_HT_SCOPE) {
+      scopes.emplace_back(item->u.scope.name, item->u.scope.name_length);
+    } else if (item->htyp == FST_HT_UPSCOPE) {
+      scopes.pop_back();
+    } else if (item->htyp == FST_HT_VAR) {
+      std::string scope;
+      for (const std::string& part : scopes) scope += scope.empty() ? part : "." + part;
+      places[item->u.var.handle].push_back(reader.variables.size());
+      reader.variables.push_back(
+          variable_of(scope, std::string(item->u.var.name, item->u.var.name_length),
+                      static_cast<int>(item->u.var.length), item->u.var.typ == FST_VT_VCD_REAL));
+    }
+  }
+  struct Context {
+    const std::unordered_map<fstHandle, std::vector<std::size_t>>& places;
+    const WaveReader::Visit& visit;
+    double ps;
+  };
+  double ps = 1;
+  for (int exponent = fstReaderGetTimescale(fst); exponent > -12; --exponent) ps *= 10;
+  for (int exponent = fstReaderGetTimescale(fst); exponent < -12; ++exponent) ps /= 10;
+  Context context{places, visit, ps};
+  fstReaderSetFacProcessMaskAll(fst);
+  fstReaderIterBlocks(
+      fst,
+      [](void* user, std::uint64_t time, fstHandle handle, const unsigned char* value) {
+        const Context& c = *static_cast<Context*>(user);
+        const auto found = c.places.find(handle);
+        if (found == c.places.end()) return;
+        for (const std::size_t index : found->second) {
+          c.visit(static_cast<std::uint64_t>(static_cast<double>(time) * c.ps), index,
+                  reinterpret_cast<const char*>(value));
+        }
+      },
+      &context, nullptr);
+  fstReaderClose(fst);
+  return true;
+}
+
+}  // namespace
+
+std::string WaveVariable::range() const {
+  if (real || width == 1) return {};
+  return fmt::format("[{}:{}]", width - 1 - fraction_bits, -fraction_bits);
+}
+
+std::unique_ptr<WaveWriter> WaveWriter::open(const fs::path& file,
+                                             const std::vector<WaveVariable>& variables) {
+  if (file.extension() == ".fst") return std::make_unique<FstWriter>(file, variables);
+  if (file.extension() == ".vcd") return std::make_unique<VcdWriter>(file, variables);
+  throw InputError(
+      fmt::format("{}: waveforms are written as .fst or .vcd", printable(file.string())));
+}
+
+WaveReader WaveReader::read(const fs::path& file, const Visit& visit) {
+  WaveReader reader;
+  const std::string text = read_whole_file(file);
+  if (!text.empty() && text.front() == '\0') {
+    if (read_fst(file, reader, visit)) return reader;
+    throw InputError(fmt::format(
+        "{}: an FST file that is damaged or was cut; of VCD files, also the beginning can be read",
+        printable(file.string())));
+  }
+  if (!VcdParser(text, reader, visit).read()) {
+    throw InputError(fmt::format("{}: no VCD or FST file", printable(file.string())));
+  }
+  return reader;
+}
+
+}  // namespace phongpipe

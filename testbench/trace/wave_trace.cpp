@@ -1,0 +1,492 @@
+#include "testbench/trace/wave_trace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <set>
+
+#include "model/fixed/model_frame.h"
+#include "model/scene/input_error.h"
+#include "sim/pipeline.h"
+#include "testbench/cosim/stream_checker.h"
+#include "testbench/rtl/rtl_signals.h"
+#include "testbench/system/process.h"
+#include "testbench/system/record_json.h"
+#include "testbench/system/terminal.h"
+
+namespace phongpipe {
+namespace {
+
+constexpr const char* kRoot = "phongpipe";
+
+std::string bits_text(std::int64_t value, int width) {
+  std::string text(static_cast<std::size_t>(width), '0');
+  for (int bit = 0; bit < width; ++bit) {
+    if ((static_cast<std::uint64_t>(value) >> bit & 1) != 0) {
+      text[static_cast<std::size_t>(width - 1 - bit)] = '1';
+    }
+  }
+  return text;
+}
+
+// A variable with what gives its value in a clock.
+struct Probe {
+  WaveVariable variable;
+  std::function<std::string()> bits;
+  std::function<double()> real;  // if the variable is real
+};
+
+// Both implementations of pixel_datapath in one clock, as they are before its edge.
+struct Clock {
+  std::int64_t cycle = 0;
+  DatapathInputs inputs;
+  DatapathOutputs outputs;  // of SystemC
+};
+
+// Everything that a trace shows, from the table of signals and from the RTL itself.
+class Probes {
+ public:
+  Probes(const DatapathConfiguration& configuration, const DatapathRegisters& systemc,
+         const RtlDatapath& rtl, const Clock& clock, const PipelineState& state)
+      : configuration_(configuration), systemc_(systemc), clock_(clock), state_(state), inside_(rtl) {
+    add_word(kRoot, "cycle", 32, 0, [this] { return clock_.cycle; });
+    add_registers();
+    add_rtl();
+    add_systemc_ports();
+    add_pipeline();
+    std::stable_sort(probes_.begin(), probes_.end(), [](const Probe& a, const Probe& b) {
+      return a.variable.scope < b.variable.scope;
+    });
+  }
+
+  const std::vector<Probe>& all() const { return probes_; }
+
+ private:
+  static std::string side(const char* name, const std::string& block) {
+    return fmt::format("{}.{}.{}", kRoot, name, block);
+  }
+  void add_word(const std::string& scope, const std::string& name, int width, int fraction_bits,
+                std::function<std::int64_t()> value) {
+    Probe probe;
+    probe.variable = {scope, name, width, fraction_bits, false};
+    probe.bits = [width, value = std::move(value)] { return bits_text(value(), width); };
+    probes_.push_back(std::move(probe));
+  }
+  void add_register(const char* name, const DatapathSignal& signal,
+                    const std::function<std::int64_t()>& value) {
+    add_word(side(name, signal.block()), signal.name, signal.width, signal.fraction_bits, value);
+    if (signal.unit.empty() && signal.fraction_bits == 0) return;
+    Probe probe;
+    probe.variable = {fmt::format("{}.lsb.{}.{}", kRoot, name, signal.block()), signal.name, 64, 0,
+                      true};
+    probe.real = [signal, value] { return signal.real(value()); };
+    probes_.push_back(std::move(probe));
+  }
+
+  void add_registers() {
+    for (const DatapathSignal& signal : datapath_signals(configuration_)) {
+      add_register("systemc", signal, [this, signal] { return signal.value(systemc_); });
+      const auto rtl = RtlRegister::find(inside_, signal);
+      if (!rtl) continue;
+      add_register("rtl", signal, [rtl = *rtl] { return rtl.value(); });
+      if (signal.packed.empty()) known_.insert(rtl->view().scope + "." + rtl->view().name);
+    }
+  }
+
+  // All other signals of the RTL, as plain words.
+  void add_rtl() {
+    for (const RtlSignalView& signal : inside_.all()) {
+      const bool is_array = signal.elements > 1, is_clock = signal.name == "clk";
+      const bool unused = signal.name.rfind("unused", 0) == 0;
+      if (is_array || is_clock || unused) continue;
+      if (known_.count(signal.scope + "." + signal.name) != 0) continue;
+      Probe probe;
+      probe.variable = {fmt::format("{}.rtl.{}", kRoot, signal.scope), signal.name, signal.width, 0,
+                        false};
+      probe.bits = [&signal] { return signal.text(); };
+      probes_.push_back(std::move(probe));
+    }
+  }
+
+  void add_systemc_ports() {
+    const std::string scope = side("systemc", "pixel_datapath");
+    const auto span = [this](auto value) {
+      return [this, value]() -> std::int64_t {
+        return clock_.inputs.span == nullptr ? 0 : value(*clock_.inputs.span);
+      };
+    };
+    add_word(scope, "span_valid", 1, 0, [this] { return clock_.inputs.span != nullptr; });
+    add_word(scope, "span_ready", 1, 0, [this] { return clock_.outputs.span_ready; });
+    add_word(scope, "span_x", kCoordinateBits, 0, span([](const Span& s) { return s.row.x; }));
+    add_word(scope, "span_y", kCoordinateBits, 0, span([](const Span& s) { return s.row.y; }));
+    add_word(scope, "span_length", kLengthBits, 0,
+             span([](const Span& s) { return s.row.length; }));
+    add_word(scope, "rom_write", 1, 0, [this] { return clock_.inputs.table != nullptr; });
+    add_word(scope, "rom_address", configuration_.rom_address_bits, 0,
+             [this] { return clock_.inputs.rom_address; });
+    add_word(scope, "pixel_valid", 1, 0, [this] { return clock_.outputs.pixel_valid; });
+    add_word(scope, "pixel_ready", 1, 0, [this] { return clock_.inputs.pixel_ready; });
+    add_word(scope, "pixel_x", kCoordinateBits, 0, [this] { return clock_.outputs.pixel.x; });
+    add_word(scope, "pixel_y", kCoordinateBits, 0, [this] { return clock_.outputs.pixel.y; });
+    add_word(scope, "pixel_color", configuration_.channels * kOutputBits, 0,
+             [this] { return clock_.outputs.pixel.color; });
+  }
+
+  void add_pipeline() {
+    const PipelineState& s = state_;
+    const auto add = [this](const char* module, const char* name, int width, auto value) {
+      add_word(fmt::format("{}.systemc.{}", kRoot, module), name, width, 0,
+               [value] { return static_cast<std::int64_t>(value()); });
+    };
+    add("setup_engine", "busy", 1, [&s] { return s.setup_busy; });
+    add("setup_engine", "triangle", 32, [&s] { return s.setup_triangle; });
+    add("span_walker", "busy", 1, [&s] { return s.walker_busy; });
+    add("span_walker", "triangle", 32, [&s] { return s.walker_triangle; });
+    add("framebuffer", "busy", 1, [&s] { return s.framebuffer_busy; });
+    add("queues", "triangles", 16, [&s] { return s.triangles; });
+    add("queues", "spans", 16, [&s] { return s.spans; });
+    add("queues", "pixels", 16, [&s] { return s.pixels; });
+  }
+
+  const DatapathConfiguration& configuration_;
+  const DatapathRegisters& systemc_;
+  const Clock& clock_;
+  const PipelineState& state_;
+  RtlSignals inside_;
+  std::set<std::string> known_;  // signals of the RTL that the table describes
+  std::vector<Probe> probes_;
+};
+
+// The variables of the file: two clocks, then the probes.
+std::vector<WaveVariable> variables_of(const Probes& probes) {
+  std::vector<WaveVariable> variables;
+  for (const Probe& probe : probes.all()) variables.push_back(probe.variable);
+  // Before the variables of the same scope, so that scopes stay together.
+  for (const char* name : {"rtl", "systemc"}) {
+    const WaveVariable clk = {fmt::format("{}.{}.pixel_datapath", kRoot, name), "clk", 1, 0, false};
+    const auto place = std::lower_bound(
+        variables.begin(), variables.end(), clk,
+        [](const WaveVariable& a, const WaveVariable& b) { return a.scope < b.scope; });
+    variables.insert(place, clk);
+  }
+  return variables;
+}
+
+// Writes what changes.
+class Recorder {
+ public:
+  Recorder(const std::filesystem::path& file, const Probes& probes, std::uint64_t period_ps)
+      : variables_(variables_of(probes)),
+        period_(period_ps),
+        writer_(WaveWriter::open(file, variables_)),
+        last_(variables_.size()) {
+    auto probe = probes.all().begin();
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+      if (variables_[i].name == "clk") {
+        clocks_.push_back(i);
+      } else {
+        probes_.push_back({i, &*probe++});
+      }
+    }
+  }
+
+  void record(std::int64_t cycle) {
+    if (next_ && cycle != *next_) leave(*next_);
+    next_ = cycle + 1;
+    const std::uint64_t begin = static_cast<std::uint64_t>(cycle) * period_;
+    writer_->time(begin);
+    tick("1");
+    for (const auto& [index, probe] : probes_) {
+      if (probe->variable.real) {
+        const double value = probe->real();
+        std::string text = fmt::format("{}", value);
+        if (text == last_[index]) continue;
+        last_[index] = std::move(text);
+        writer_->change(index, value);
+      } else {
+        change(index, probe->bits());
+      }
+    }
+    writer_->time(begin + period_ / 2);
+    tick("0");
+  }
+
+  void close() {
+    if (next_) {
+      writer_->time(static_cast<std::uint64_t>(*next_) * period_);
+      tick("1");
+    }
+    writer_->close();
+  }
+
+ private:
+  void tick(const char* value) {
+    for (const std::size_t clock : clocks_) writer_->change(clock, value);
+  }
+  void change(std::size_t index, std::string bits) {
+    if (bits == last_[index]) return;
+    writer_->change(index, bits);
+    last_[index] = std::move(bits);
+  }
+  // The last clock before cycles that are not recorded has its edge, and then nothing is known.
+  void leave(std::int64_t cycle) {
+    writer_->time(static_cast<std::uint64_t>(cycle) * period_);
+    tick("1");
+    writer_->time(static_cast<std::uint64_t>(cycle) * period_ + 1);
+    tick("x");
+    for (const auto& [index, probe] : probes_) {
+      if (probe->variable.real) continue;
+      change(index, std::string(static_cast<std::size_t>(variables_[index].width), 'x'));
+    }
+  }
+
+  std::vector<WaveVariable> variables_;
+  std::uint64_t period_;
+  std::unique_ptr<WaveWriter> writer_;
+  std::vector<std::string> last_;  // values, by variable
+  std::vector<std::size_t> clocks_;
+  std::vector<std::pair<std::size_t, const Probe*>> probes_;  // by variable
+  std::optional<std::int64_t> next_;                          // cycle after the last recorded one
+};
+
+// SystemC and RTL on the same inputs; what happens in the windows is recorded.
+class TracedDatapath : public ClockedDatapath {
+ public:
+  TracedDatapath(const FrameSetup& frame, const RtlLibrary& library,
+                 const std::vector<CycleWindow>& windows, const TraceTarget& target,
+                 const TraceOptions& options, const PipelineState& state,
+                 const std::filesystem::path& file, std::uint64_t period_ps)
+      : windows_(windows),
+        target_(target),
+        rtl_drives_(options.rtl_drives),
+        systemc_(frame.configuration, frame.cue_color),
+        rtl_(library, frame.cue_color),
+        probes_(frame.configuration, systemc_, rtl_, clock_, state),
+        recorder_(file, probes_, period_ps) {
+    rtl_.before_edge([this] {
+      if (recording_) recorder_.record(clock_.cycle);
+    });
+  }
+
+  void reset() override {
+    rtl_.reset();
+    systemc_.reset();
+  }
+  DatapathOutputs clock(const DatapathInputs& inputs) override {
+    while (window_ < windows_.size() && windows_[window_].last < clock_.cycle) ++window_;
+    recording_ = window_ < windows_.size() && windows_[window_].first <= clock_.cycle;
+    clock_.inputs = inputs;
+    clock_.outputs = systemc_.outputs(inputs);
+    const DatapathOutputs rtl = rtl_.clock(inputs);
+    if (recording_) mark();
+    const DatapathOutputs systemc = systemc_.clock(inputs);
+    ++clock_.cycle;
+    return rtl_drives_ ? rtl : systemc;
+  }
+
+  void close() { recorder_.close(); }
+  const std::vector<TraceMarker>& markers() const { return markers_; }
+
+ private:
+  bool is_target(int x, int y) const {
+    const std::array<int, 2> place = {x, y};
+    return std::find(target_.pixels.begin(), target_.pixels.end(), place) != target_.pixels.end();
+  }
+  void mark() {
+    const DatapathRegisters::Step& step = systemc_.step();
+    const bool inside = step.valid && is_target(step.x, step.y);
+    if (inside && !entering_) {
+      markers_.push_back({fmt::format("enters {},{}", step.x, step.y), clock_.cycle});
+    }
+    entering_ = inside;
+    const auto& [ready, valid, pixel] = clock_.outputs;
+    if (valid && clock_.inputs.pixel_ready && is_target(pixel.x, pixel.y)) {
+      markers_.push_back({fmt::format("leaves {},{}", pixel.x, pixel.y), clock_.cycle});
+    }
+  }
+
+  const std::vector<CycleWindow>& windows_;
+  const TraceTarget& target_;
+  bool rtl_drives_;
+  DatapathRegisters systemc_;
+  RtlDatapath rtl_;
+  Clock clock_;
+  Probes probes_;
+  Recorder recorder_;
+  std::size_t window_ = 0;
+  bool recording_ = false, entering_ = false;
+  std::vector<TraceMarker> markers_;
+};
+
+SimulationOptions simulation_options(const TraceOptions& options) {
+  SimulationOptions simulation;
+  simulation.stall_percent = options.stall_percent;
+  simulation.stall_seed = options.seed;
+  return simulation;
+}
+
+// Sorts windows, cuts them to the frame, and joins those that touch.
+std::vector<CycleWindow> joined(std::vector<CycleWindow> windows, std::int64_t frame_cycles) {
+  std::sort(windows.begin(), windows.end(),
+            [](const CycleWindow& a, const CycleWindow& b) { return a.first < b.first; });
+  std::vector<CycleWindow> result;
+  for (CycleWindow& window : windows) {
+    window.first = std::max<std::int64_t>(window.first, 0);
+    window.last = std::min(window.last, frame_cycles - 1);
+    if (!result.empty() && window.first <= result.back().last + 1) {
+      result.back().last = std::max(result.back().last, window.last);
+    } else {
+      result.push_back(window);
+    }
+  }
+  return result;
+}
+
+// Looks at every pixel of the stream for the target.
+class WindowFinder {
+ public:
+  WindowFinder(const PreparedFrame& frame, const TraceTarget& target)
+      : target_(target), whole_(frame.subdivision().whole), spans_(frame.setup) {}
+
+  void observe(const ShadedPixel& pixel, std::int64_t cycle, int latency) {
+    if (left_in_span_ == 0) {
+      if (!spans_.next()) return;
+      left_in_span_ = spans_.span().row.length;
+      ++span_;
+    }
+    --left_in_span_;
+    last_span_ = span_;
+    const std::array<int, 2> place = {pixel.x, pixel.y};
+    const auto& pixels = target_.pixels;
+    const CycleWindow window = {cycle - latency - target_.margin_cycles,
+                                cycle + target_.margin_cycles};
+    if (std::find(pixels.begin(), pixels.end(), place) != pixels.end()) windows_.push_back(window);
+    const bool in_triangle =
+        target_.triangle && whole_[spans_.span().triangle] == *target_.triangle;
+    const bool in_span = target_.span && span_ == static_cast<std::int64_t>(*target_.span);
+    if (!in_triangle && !in_span) return;
+    if (windows_.empty()) windows_.push_back(window);
+    windows_.back().last = window.last;
+  }
+
+  const std::vector<CycleWindow>& windows() const { return windows_; }
+  std::int64_t last_span() const { return last_span_; }
+
+ private:
+  const TraceTarget& target_;
+  const std::vector<std::uint32_t>& whole_;
+  SpanStream spans_;
+  int left_in_span_ = 0;
+  std::int64_t span_ = -1, last_span_ = -1;
+  std::vector<CycleWindow> windows_;
+};
+
+struct FoundWindows {
+  std::vector<CycleWindow> windows;
+  std::int64_t frame_cycles = 0, last_span = 0;
+
+  static constexpr auto fields() {
+    using F = FoundWindows;
+    return std::make_tuple(field("windows", &F::windows), field("frame_cycles", &F::frame_cycles),
+                           field("last_span", &F::last_span));
+  }
+};
+
+[[noreturn]] void refuse_target(const PreparedFrame& frame, const TraceTarget& target,
+                                const FoundWindows& found) {
+  const std::string& scene = frame.scene().source;
+  if (target.cycles) {
+    throw InputError(fmt::format("{}: cycles {}:{}: the frame has the cycles 0:{}", scene,
+                                 target.cycles->first, target.cycles->last,
+                                 found.frame_cycles - 1));
+  }
+  if (target.span) {
+    throw InputError(
+        fmt::format("{}: span {}: the frame has the spans 0 to {}", scene, *target.span,
+                    found.last_span));
+  }
+  const std::vector<std::uint32_t>& whole = frame.subdivision().whole;
+  const std::uint32_t last = *std::max_element(whole.begin(), whole.end());
+  throw InputError(*target.triangle > last
+                       ? fmt::format("{}: triangle {}: the scene has the triangles 0 to {}", scene,
+                                     *target.triangle, last)
+                       : fmt::format("{}: triangle {}: no pixel of it is shaded", scene,
+                                     *target.triangle));
+}
+
+}  // namespace
+
+std::vector<CycleWindow> find_windows(const PreparedFrame& frame, const Hardware& hardware,
+                                      const TraceTarget& target, const TraceOptions& options) {
+  Child child([&] {
+    SimulationOptions simulation = simulation_options(options);
+    WindowFinder finder(frame, target);
+    const int latency = frame.setup.configuration.latency_cycles();
+    simulation.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles,
+                             std::size_t count) {
+      for (std::size_t i = 0; i < count; ++i) finder.observe(pixels[i], cycles[i], latency);
+    };
+    FoundWindows found;
+    found.frame_cycles = simulate(frame.setup, hardware.pipeline, simulation).frame_cycles;
+    found.windows = finder.windows();
+    found.last_span = finder.last_span();
+    return to_bytes(found);
+  });
+  FoundWindows found = from_bytes<FoundWindows>(child.get());
+  const std::int64_t cycles = found.frame_cycles;
+  if (target.frame) found.windows.push_back({0, cycles - 1});
+  if (target.cycles && target.cycles->first <= target.cycles->last && target.cycles->first >= 0 &&
+      target.cycles->last < cycles) {
+    found.windows.push_back({target.cycles->first - target.margin_cycles,
+                             target.cycles->last + target.margin_cycles});
+  }
+  if (found.windows.empty()) refuse_target(frame, target, found);
+  return joined(std::move(found.windows), cycles);
+}
+
+RecordedTrace record_trace(const PreparedFrame& frame, const Hardware& hardware,
+                           const RtlLibrary& library, const std::vector<CycleWindow>& windows,
+                           const TraceTarget& target, const TraceOptions& options,
+                           const std::filesystem::path& file) {
+  const double clock_ns = hardware.technology.clock_ns(frame.setup.configuration);
+  constexpr double kPicoseconds = 1000;  // in a nanosecond
+  const auto period = static_cast<std::uint64_t>(std::llround(clock_ns * kPicoseconds));
+  Child child([&] {
+    PipelineState state;
+    TracedDatapath datapath(frame.setup, library, windows, target, options, state, file, period);
+    StreamHash hash;
+    SimulationOptions simulation = simulation_options(options);
+    simulation.detail = Detail::cycle;
+    simulation.datapath = &datapath;
+    simulation.state = &state;
+    simulation.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles,
+                             std::size_t count) { hash.add(pixels, cycles, count); };
+    const SimulationResult result = simulate(frame.setup, hardware.pipeline, simulation);
+    datapath.close();
+    const Fingerprint fingerprint = hash.fingerprint();
+    RecordedTrace trace;
+    trace.markers = datapath.markers();
+    trace.period_ps = period;
+    trace.frame_cycles = result.frame_cycles;
+    trace.stream_hash = fingerprint.stream_hash ^ fingerprint.cycles_hash;
+    return to_bytes(trace);
+  });
+  RecordedTrace trace = from_bytes<RecordedTrace>(child.get());
+  trace.variables = trace_variables(frame.setup.configuration, library);
+  return trace;
+}
+
+std::vector<WaveVariable> trace_variables(const DatapathConfiguration& configuration,
+                                          const RtlLibrary& library) {
+  const DatapathRegisters systemc(configuration);
+  const RtlDatapath rtl(library);
+  const Clock clock;
+  const PipelineState state;
+  return variables_of(Probes(configuration, systemc, rtl, clock, state));
+}
+
+}  // namespace phongpipe
