@@ -12,10 +12,16 @@ namespace phongpipe {
 
 // In the order of the pipeline; between each and the next there is a queue.
 enum class Module : std::uint8_t { setup_engine, span_walker, pixel_datapath, framebuffer };
-constexpr std::array<std::string_view, 4> kModules = {"setup_engine", "span_walker",
-                                                      "pixel_datapath", "framebuffer"};
+constexpr std::array kModules = {Module::setup_engine, Module::span_walker, Module::pixel_datapath,
+                                 Module::framebuffer};
+constexpr std::string_view name(Module module) {
+  constexpr std::string_view kNames[] = {"setup_engine", "span_walker", "pixel_datapath",
+                                         "framebuffer"};
+  return kNames[static_cast<std::size_t>(module)];
+}
 
-// pixel_datapath is busy in the clocks in which a pixel leaves it.
+// pixel_datapath is busy in the clocks in which a pixel leaves it; the framebuffer for all cycles
+// that a pixel occupies it, those of random back-pressure among them.
 enum class ModuleState : std::uint8_t {
   busy,     // with a triangle
   loading,  // a highlight table
