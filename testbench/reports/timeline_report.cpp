@@ -27,7 +27,11 @@ class Trace {
   void add_name(const char* what, int thread, std::string_view name) {
     add({{"ph", "M"}, {"name", what}, {"pid", 1}, {"tid", thread}, {"args", {{"name", name}}}});
   }
-  std::string text() const { return text_ + "\n]}\n"; }
+  // Call it once.
+  std::string text() {
+    text_ += "\n]}\n";
+    return std::move(text_);
+  }
 
  private:
   std::string text_;
@@ -174,7 +178,9 @@ class Drawing {
     const double top = kStripTop + kStripRow * static_cast<double>(module);
     add_text(kLeft - 10, top + kStripHeight / 2 + 4, kName, name(module));
     const std::vector<Column> columns = columns_of(timeline_, module);
-    const double width = kBarWidth / static_cast<double>(columns.size());
+    const auto edge = [&columns](std::size_t i) {
+      return kLeft + kBarWidth * static_cast<double>(i) / static_cast<double>(columns.size());
+    };
     std::vector<double> height(columns.size(), 0);  // that is filled, from below
     for (std::size_t state = 0; state < kModuleStates; ++state) {
       std::string path;
@@ -183,9 +189,9 @@ class Drawing {
         const double low = height[i];
         height[i] += kStripHeight * columns[i][state];
         // Neighbours get the same numbers for the edge between them, or there would be seams.
-        const double left = kLeft + width * static_cast<double>(i);
-        fmt::format_to(std::back_inserter(path), "M{0:.2f} {1:.2f}H{2:.2f}V{3:.2f}H{0:.2f}z", left,
-                       top + kStripHeight - low, left + width, top + kStripHeight - height[i]);
+        fmt::format_to(std::back_inserter(path), "M{0:.2f} {1:.2f}H{2:.2f}V{3:.2f}H{0:.2f}z",
+                       edge(i), top + kStripHeight - low, edge(i + 1),
+                       top + kStripHeight - height[i]);
       }
       if (!path.empty()) {
         add("<path d=\"{}\" fill=\"{}\" shape-rendering=\"crispEdges\"/>\n", path, kColors[state]);

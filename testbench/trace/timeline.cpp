@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "model/scene/input_error.h"
 #include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
