@@ -38,6 +38,7 @@ DatapathDriver::Outcome DatapathDriver::clock(const Span* span, bool pixel_ready
     if (pixels_in_flight_ <= 0) ++unasked_pixels_;
     --pixels_in_flight_;
   }
+  outcome.pixel_held = outputs.pixel_valid && !pixel_ready;
   if (busy && pixel_ready && !outcome.span_taken && !outcome.pixel_taken) ++idle_clocks_;
   return outcome;
 }

@@ -16,7 +16,8 @@ class DatapathDriver {
     bool span_taken = false;
     bool pixel_taken = false;
     ShadedPixel pixel;
-    bool loading = false;  // a word of a table was written
+    bool pixel_held = false;  // it is valid, but there is no room for it
+    bool loading = false;     // a word of a table was written
   };
   // Executes one clock. `span`: the front of the queue, or null; it stays the same until it is
   // taken.

@@ -56,6 +56,11 @@ struct FrameContext {
   }
   void record(const ShadedPixel& pixel, Cycle cycle) { record(&pixel, &cycle, 1); }
 
+  // What a module does in this clock, see ActivityRecorder::record().
+  void tell(Module module, ModuleState state, std::uint32_t triangle, std::size_t fill) const {
+    if (options.activity != nullptr) options.activity->record(module, state, triangle, fill);
+  }
+
  private:
   // A hash of the pixel's index, so that the same pixels stall at every detail and with every
   // datapath. The mixing constants are those of the finaliser of MurmurHash3.

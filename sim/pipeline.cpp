@@ -66,6 +66,9 @@ void simulate_by_clock(FrameContext& context) {
   sc_core::sc_start();
   context.result.pixel_operations = pixel_datapath.operations();
   context.result.framebuffer = framebuffer.take_memory();
+  if (context.options.activity != nullptr) {
+    context.options.activity->finish(context.result.frame_cycles);
+  }
 }
 
 }  // namespace
@@ -79,6 +82,9 @@ SimulationResult simulate(const FrameSetup& frame, const PipelineConfiguration& 
   sc_core::sc_report_handler::set_actions("/OSCI/SystemC", sc_core::SC_INFO,
                                           sc_core::SC_DO_NOTHING);
   configuration.check();
+  if (options.activity != nullptr && options.detail != Detail::cycle) {
+    throw std::logic_error("what modules do in each clock is known by the clock only");
+  }
 
   SimulationResult result(frame);
   FrameContext context{frame,           configuration, options,

@@ -15,6 +15,7 @@
 
 #include "model/fixed/framebuffer.h"
 #include "model/shading/dataflow.h"
+#include "sim/activity_recorder.h"
 #include "sim/clocked_datapath.h"
 #include "sim/datapath_blocks.h"
 #include "sim/pipeline_configuration.h"
@@ -34,6 +35,8 @@ struct SimulationOptions {
   // does not record them.
   std::function<void(const ShadedPixel* pixels, const std::int64_t* cycles, std::size_t count)>
       observe;
+  // Told what each module does in each clock, if not null; by Detail::cycle only.
+  ActivityRecorder* activity = nullptr;
   // The pipeline counts as stuck if nothing has moved for this many cycles.
   std::int64_t watchdog_cycles = 1'000'000;
 };

@@ -29,8 +29,14 @@ class Framebuffer : public sc_core::sc_module {
   void clock() {
     const Cycle cycle = cycle_++;
     if (busy_ > 0) --busy_;
-    if (busy_ > 0 || pixels_.empty()) return;
+    if (busy_ == 0 && !pixels_.empty()) start_pixel(cycle);
+    context_.tell(Module::framebuffer, busy() ? ModuleState::busy : ModuleState::waiting, triangle_,
+                  pixels_.size());
+  }
+
+  void start_pixel(Cycle cycle) {
     const DepthPixel& pixel = pixels_.front();
+    triangle_ = pixel.triangle;
     // A wrong coordinate must not write outside the image; the comparison of streams reports it.
     const bool inside =
         pixel.pixel.x < context_.frame.width && pixel.pixel.y < context_.frame.height;
@@ -50,6 +56,7 @@ class Framebuffer : public sc_core::sc_module {
   phongpipe::Framebuffer memory_;
   std::unique_ptr<DatapathBlock> depth_test_;  // steps depth; null without depth test
   Cycle cycle_ = 0, busy_ = 0;
+  std::uint32_t triangle_ = 0;  // of the last pixel taken
   std::uint32_t stream_index_ = 0;
 };
 

@@ -39,6 +39,7 @@ class PixelDatapath : public sc_core::sc_module {
     const Cycle cycle = cycle_++;
     const DatapathDriver::Outcome outcome =
         driver_.clock(spans_.empty() ? nullptr : &spans_.front(), !pixels_.full());
+    tell_state(outcome);
     if (outcome.span_taken) {
       in_flight_.push_back(spans_.front());
       blocks_.shade(spans_.front());
@@ -48,6 +49,17 @@ class PixelDatapath : public sc_core::sc_module {
     if (outcome.loading) ++context_.result.rom_load_cycles;
     context_.result.datapath_busy_cycles = driver_.busy_clocks();
     if (outcome.span_taken || outcome.pixel_taken || outcome.loading) ++moved_;
+  }
+
+  void tell_state(const DatapathDriver::Outcome& outcome) const {
+    const bool has_work = !spans_.empty() || driver_.pixels_in_flight() > 0;
+    const ModuleState state = outcome.loading       ? ModuleState::loading
+                              : outcome.pixel_taken ? ModuleState::busy
+                              : outcome.pixel_held  ? ModuleState::stalled
+                              : has_work            ? ModuleState::filling
+                                                    : ModuleState::waiting;
+    context_.tell(Module::pixel_datapath, state,
+                  in_flight_.empty() ? 0 : in_flight_.front().triangle, spans_.size());
   }
 
   void deliver(const ShadedPixel& pixel, Cycle cycle) {

@@ -26,12 +26,18 @@ class SetupEngine : public sc_core::sc_module {
 
  private:
   void clock() {
+    context_.tell(Module::setup_engine, state(), done() ? 0 : work_->setup.triangle, 0);
     if (done()) return;
     if (cycles_left_ > 0) --cycles_left_;
     if (cycles_left_ > 0 || triangles_.full()) return;
     triangles_.push(work_);
     ++moved_;
     start_next();
+  }
+
+  ModuleState state() const {
+    if (done()) return ModuleState::done;
+    return cycles_left_ > 0 ? ModuleState::busy : ModuleState::stalled;
   }
 
   void start_next() {

@@ -22,6 +22,7 @@ class SpanWalker : public sc_core::sc_module {
 
  private:
   void clock() {
+    tell_state();
     if (idle()) {
       if (triangles_.empty()) return;
       work_ = triangles_.front();
@@ -36,6 +37,16 @@ class SpanWalker : public sc_core::sc_module {
     ++written_;
     cycles_left_ = context_.configuration.walker_row_cycles;
     if (++row_ == work_->rows.size()) work_ = nullptr;
+  }
+
+  void tell_state() const {
+    const bool takes = idle() && !triangles_.empty();
+    const ModuleState state = takes || (!idle() && cycles_left_ > 0) ? ModuleState::busy
+                              : idle()                               ? ModuleState::waiting
+                                                                     : ModuleState::stalled;
+    const TriangleWork* const work = takes ? triangles_.front().get() : work_.get();
+    context_.tell(Module::span_walker, state, work == nullptr ? 0 : work->setup.triangle,
+                  triangles_.size());
   }
 
   FrameContext& context_;

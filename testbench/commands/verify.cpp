@@ -8,6 +8,7 @@
 #include "model/scene/input_error.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
+#include "testbench/reports/timeline_report.h"
 #include "testbench/reports/verification_page.h"
 #include "testbench/reports/verification_report.h"
 #include "testbench/system/output_file.h"
@@ -22,6 +23,7 @@ struct Options {
   VerificationOptions verification;
   std::filesystem::path pictures;
   std::string json;
+  std::filesystem::path timeline;
   bool verbose = false;
 };
 
@@ -66,10 +68,17 @@ class Verifier {
  private:
   // A scene that cannot be verified does not keep the others from it.
   void verify_scene(const Scene& scene, const std::string& name) {
+    const auto show_step = [&](const std::string& what) {
+      progress_(fmt::format("{}: {}", scene.source, what));
+    };
     try {
-      const VerificationResult result = verify(
-          scene, hardware_, options_.verification,
-          [&](const std::string& what) { progress_(fmt::format("{}: {}", scene.source, what)); });
+      const auto prepared = std::make_shared<const PreparedScene>(scene);
+      const VerificationResult result =
+          verify(prepared, hardware_, options_.verification, show_step);
+      if (!options_.timeline.empty()) {
+        show_step("recording the timeline");
+        write_timeline(record_timeline(prepared, hardware_, options_.verification), scene.source);
+      }
       progress_.clear();
       show(scene, result, name);
       if (!options_.pictures.empty()) {
@@ -89,6 +98,11 @@ class Verifier {
     }
   }
 
+  void write_timeline(const Timeline& timeline, const std::string& scene) const {
+    write_text(options_.timeline, timeline_json(timeline, scene));
+    write_text(timeline_picture_file(), timeline_picture(timeline, scene));
+  }
+
   void show(const Scene& scene, const VerificationResult& result, const std::string& name) const {
     ReportStyle style;
     style.color = color_wanted();
@@ -104,6 +118,10 @@ class Verifier {
       style.more.push_back(printable(files.back().string()));
       if (options_.scenes.size() == 1) style.more.push_back(printable(page_file().string()));
     }
+    if (!options_.timeline.empty()) {
+      style.more.push_back(printable(options_.timeline.string()));
+      style.more.push_back(printable(timeline_picture_file().string()));
+    }
     if (options_.json == "-") return;
     print_or_throw(options_.scenes.size() == 1 ? report_text(result, style)
                                                : report_line(result, style));
@@ -112,6 +130,10 @@ class Verifier {
   // What cannot be written is said before the work.
   void check_outputs() const {
     check_output(options_.json);
+    if (!options_.timeline.empty()) {
+      check_writable(options_.timeline);
+      check_writable(timeline_picture_file());
+    }
     if (options_.pictures.empty()) return;
     std::vector<std::filesystem::path> files = {page_file()};
     for (const std::string& name : names_) {
@@ -121,6 +143,9 @@ class Verifier {
   }
 
   std::filesystem::path page_file() const { return options_.pictures / "verify.html"; }
+  std::filesystem::path timeline_picture_file() const {
+    return std::filesystem::path(options_.timeline).replace_extension(".svg");
+  }
   RunRequest request_of(const Scene& scene) const {
     return {scene.source, options_.hardware.hardware, options_.hardware.overrides,
             options_.verification};
@@ -151,6 +176,13 @@ void add_run_option(CLI::App& command, const RunOption& option, VerificationOpti
 
 int verify_scenes(Options options) {
   options.verification.pictures = !options.pictures.empty();
+  if (!options.timeline.empty()) {
+    if (options.timeline.extension() != ".json") {
+      throw InputError(fmt::format("--timeline {}: a file .json, beside which a picture .svg goes",
+                                   printable(options.timeline.string())));
+    }
+    if (options.scenes.size() > 1) throw InputError("--timeline is of one scene; give one");
+  }
   return Verifier(options).run();
 }
 
@@ -173,6 +205,12 @@ void add_verify(CLI::App& application, Run& run) {
       ->add_option("--json", options->json,
                    "Write the results as JSON; - is standard output, in place of the report")
       ->type_name("FILE");
+  command
+      ->add_option(
+          "--timeline", options->timeline,
+          "Write what each SystemC module does in each cycle, as trace events for Perfetto "
+          "(ui.perfetto.dev), and beside them a picture (SVG) of what limits the frame")
+      ->type_name("FILE.json");
   command->add_flag("-v,--verbose", options->verbose,
                     "Tell settings, effects and all metrics after the answer");
   command->add_option("--rtl", v.rtl_sources, "Folder of the RTL to verify, if not the installed")

@@ -161,6 +161,18 @@ DatapathConfiguration rtl_configuration(const DatapathConfiguration& configurati
   return rtl == RtlToVerify::superset ? superset_of(configuration) : configuration;
 }
 
+Effects simulated_effects(const VerificationOptions& options) {
+  return options.effects == EffectsToVerify::all ? Effects::all : Effects::derived;
+}
+
+SimulationOptions simulation_options(const VerificationOptions& options) {
+  SimulationOptions simulation;
+  simulation.detail = options.detail;
+  simulation.stall_percent = options.stall_percent;
+  simulation.stall_seed = options.seed;
+  return simulation;
+}
+
 double VerificationResult::datapath_ns_per_pixel() const {
   return clock_ns * static_cast<double>(rtl->counts.datapath_busy_cycles) /
          static_cast<double>(pixels);
@@ -188,8 +200,7 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
     if (progress) progress(what);
   };
   show("preparing the frame");
-  const Effects effects = options.effects == EffectsToVerify::all ? Effects::all : Effects::derived;
-  const PreparedFrame frame(scene, hardware.formats, hardware.setup, effects);
+  const PreparedFrame frame(scene, hardware.formats, hardware.setup, simulated_effects(options));
   VerificationResult result;
   result.scene = scene->scene.source;
   result.options = options;
@@ -206,10 +217,7 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   }
 
   show(library ? "simulating SystemC and RTL" : "simulating SystemC");
-  SimulationOptions simulation;
-  simulation.detail = options.detail;
-  simulation.stall_percent = options.stall_percent;
-  simulation.stall_seed = options.seed;
+  const SimulationOptions simulation = simulation_options(options);
   Implementation systemc(frame.setup, hardware.pipeline, simulation, nullptr);
   std::optional<Implementation> rtl;
   if (library) {

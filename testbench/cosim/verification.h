@@ -41,6 +41,10 @@ struct VerificationOptions {
   bool one_core = false;              // do everything in turn, for callers that run many at once
 };
 
+// What is simulated with these options.
+Effects simulated_effects(const VerificationOptions& options);
+SimulationOptions simulation_options(const VerificationOptions& options);
+
 // The same frame, simulated by SystemC hardware that has every effect. Its picture must be the same
 // to the bit.
 struct FullHardwareResult {

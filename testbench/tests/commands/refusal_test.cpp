@@ -36,6 +36,8 @@ TEST_F(Program, BadUsageIsOneLineAndTwo) {
   expect_refused({"render", "sphere", "-o", file("a.png"), "--power", "lyon-4"},
                  "use --power with --arithmetic real");
   expect_refused({"render", "sphere"}, "nothing to write");
+  expect_refused({"verify", "sphere", "torus", "--timeline", file("t.json")}, "of one scene");
+  expect_refused({"verify", "sphere", "--timeline", file("t.svg")}, "a file .json");
   expect_refused({"render", "sphere", "-o", file("a.jpg")}, ".png or .pfm");
   expect_refused({"verify", "efects/ambient"}, "did you mean effects/ambient?");
   expect_refused(
@@ -59,6 +61,7 @@ TEST_F(Program, AnEmptyPictureIsNoPass) {
 
 TEST_F(Program, OutputsThatCannotBeWrittenAreRefusedBeforeTheWork) {
   expect_refused({"verify", "sphere", "--json", "/nosuch/r.json"}, "/nosuch/r.json");
+  expect_refused({"verify", "sphere", "--timeline", "/nosuch/t.json"}, "/nosuch/t.json");
   expect_refused({"verify", "sphere", "--out", "/dev/null/pictures"}, "/dev/null/pictures");
   expect_refused({"render", "sphere", "-o", "/nosuch/a.png"}, "/nosuch/a.png");
   expect_refused({"compare", "sphere", "--csv", folder_.string()}, folder_.string());

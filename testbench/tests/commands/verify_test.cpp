@@ -124,6 +124,18 @@ TEST_F(Program, SplitTrianglesAreReportedAndShadedAlikeInAllAccounts) {
   EXPECT_GT(whole["accuracy"]["max_lsb"], split["accuracy"]["max_lsb"]);
 }
 
+TEST_F(Program, VerifyWritesTheTimelineAndItsPicture) {
+  const std::string timeline = file("t.v2.json");
+  const ProcessOutput output = run({"verify", "sphere", "--timeline", timeline});
+  ASSERT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(output.text.find("more     --verbose, " + timeline + ", " + file("t.v2.svg")),
+            std::string::npos)
+      << output.text;
+  EXPECT_GT(json("t.v2.json")["traceEvents"].size(), 1000U);
+  const std::string picture = read_whole_file(file("t.v2.svg"));
+  EXPECT_NE(picture.find("sphere: limited by setup_engine"), std::string::npos);
+}
+
 TEST_F(Program, OverBudgetFails) {
   const ProcessOutput output = run({"verify", "sphere", "--budget", "1"});
   EXPECT_EQ(output.status, 1);

@@ -80,23 +80,6 @@ INSTANTIATE_TEST_SUITE_P(Pipeline, OfScene,
                                          "two-planes"),
                          scene_name);
 
-PipelineConfiguration random_pipeline(Random& random) {
-  PipelineConfiguration c;
-  c.triangle_fifo = random.integer(1, 8);
-  c.span_fifo = random.integer(1, 8);
-  c.pixel_fifo = random.integer(1, 8);
-  c.walker_triangle_cycles = random.integer(1, 4);
-  c.walker_row_cycles = random.integer(1, 4);
-  c.framebuffer_write_cycles = random.integer(1, 4);
-  c.framebuffer_test_cycles = random.integer(1, 4);
-  c.framebuffer_add_cycles = random.integer(1, 4);
-  const auto units = [&random] { return Units{random.integer(1, 16), random.integer(1, 3), 1}; };
-  c.adders = units();
-  c.multipliers = units();
-  c.rsqrt = units();
-  return c;
-}
-
 TEST(Pipeline, BySpanIsByCycleForAnyConfiguration) {
   const unsigned first_seed = 59;
   for (unsigned seed = first_seed; seed < first_seed + 40; ++seed) {

@@ -6,6 +6,7 @@
 
 #include "sim/pipeline.h"
 #include "testbench/system/process.h"
+#include "testbench/system/random.h"
 #include "testbench/system/record_json.h"
 
 namespace phongpipe {
@@ -36,6 +37,23 @@ inline Trace simulate_apart(const FrameSetup& frame, const PipelineConfiguration
                             const SimulationOptions& options) {
   Child child([&] { return to_bytes(trace_of(simulate(frame, configuration, options))); });
   return from_bytes<Trace>(child.get());
+}
+
+inline PipelineConfiguration random_pipeline(Random& random) {
+  PipelineConfiguration c;
+  c.triangle_fifo = random.integer(1, 8);
+  c.span_fifo = random.integer(1, 8);
+  c.pixel_fifo = random.integer(1, 8);
+  c.walker_triangle_cycles = random.integer(1, 4);
+  c.walker_row_cycles = random.integer(1, 4);
+  c.framebuffer_write_cycles = random.integer(1, 4);
+  c.framebuffer_test_cycles = random.integer(1, 4);
+  c.framebuffer_add_cycles = random.integer(1, 4);
+  const auto units = [&random] { return Units{random.integer(1, 16), random.integer(1, 3), 1}; };
+  c.adders = units();
+  c.multipliers = units();
+  c.rsqrt = units();
+  return c;
 }
 
 }  // namespace phongpipe
