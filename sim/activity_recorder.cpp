@@ -6,6 +6,7 @@ void ActivityRecorder::record(Module module, ModuleState state, std::uint32_t tr
                               std::size_t fill) {
   const auto index = static_cast<std::size_t>(module);
   const std::int64_t cycle = cycles_[index]++;
+  now_[index] = {state, triangle, fill};
   if (!complete()) return;
   ModuleActivity& activity = modules_[index];
   if (state != ModuleState::busy) triangle = 0;

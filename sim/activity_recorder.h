@@ -53,6 +53,13 @@ struct ModuleActivity {
   }
 };
 
+// A module in the clock that it has told of last.
+struct ModuleNow {
+  ModuleState state = ModuleState::waiting;
+  std::uint32_t triangle = 0;
+  std::size_t fill = 0;  // of the queue before it
+};
+
 class ActivityRecorder {
  public:
   // Records no more than about `most_events` runs and changes of queues.
@@ -64,6 +71,7 @@ class ActivityRecorder {
   // The framebuffer has taken the last pixel; later clocks are dropped.
   void finish(std::int64_t frame_cycles);
 
+  const ModuleNow& now(Module module) const { return now_[static_cast<std::size_t>(module)]; }
   bool complete() const { return events_ < most_events_; }  // otherwise the end is missing
   std::vector<ModuleActivity> take() { return std::move(modules_); }  // in the order of kModules
 
@@ -71,6 +79,7 @@ class ActivityRecorder {
   std::size_t most_events_;
   std::size_t events_ = 0;
   std::array<std::int64_t, kModules.size()> cycles_ = {};
+  std::array<ModuleNow, kModules.size()> now_ = {};
   std::vector<ModuleActivity> modules_ = std::vector<ModuleActivity>(kModules.size());
 };
 

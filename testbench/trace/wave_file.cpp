@@ -55,6 +55,7 @@ class FstWriter : public WaveWriter {
       change_scope(scope, variable.scope, begin, end);
       scope = variable.scope;
       const std::string range = variable.range();
+      is_real_.push_back(variable.real);
       const std::string name = range.empty() ? variable.name : variable.name + " " + range;
       handles_.push_back(fstWriterCreateVar(
           fst_, variable.real ? FST_VT_VCD_REAL : FST_VT_VCD_WIRE, FST_VD_IMPLICIT,
@@ -70,11 +71,13 @@ class FstWriter : public WaveWriter {
   }
 
   void time(std::uint64_t ps) override { fstWriterEmitTimeChange(fst_, ps); }
-  void change(std::size_t index, const std::string& bits) override {
-    fstWriterEmitValueChange(fst_, handles_[index], bits.c_str());
-  }
-  void change(std::size_t index, double value) override {
-    fstWriterEmitValueChange(fst_, handles_[index], &value);
+  void change(std::size_t index, const std::string& text) override {
+    if (is_real_[index]) {
+      const double value = parse_number(text).value_or(0);
+      fstWriterEmitValueChange(fst_, handles_[index], &value);
+    } else {
+      fstWriterEmitValueChange(fst_, handles_[index], text.c_str());
+    }
   }
   void close() override {
     fstWriterClose(fst_);
@@ -92,6 +95,7 @@ class FstWriter : public WaveWriter {
   std::string partial_;
   void* fst_ = nullptr;
   std::vector<fstHandle> handles_;
+  std::vector<bool> is_real_;
 };
 
 class VcdWriter : public WaveWriter {
@@ -109,6 +113,7 @@ class VcdWriter : public WaveWriter {
       change_scope(scope, variable.scope, begin, end);
       scope = variable.scope;
       codes_.push_back(code(i));
+      is_real_.push_back(variable.real);
       is_bit_.push_back(!variable.real && variable.width == 1);
       const std::string range = variable.range();
       text_ += fmt::format("$var {} {} {} {}{}{} $end\n", variable.real ? "real" : "wire",
@@ -120,12 +125,10 @@ class VcdWriter : public WaveWriter {
   }
 
   void time(std::uint64_t ps) override { text_ += fmt::format("#{}\n", ps); }
-  void change(std::size_t index, const std::string& bits) override {
-    text_ += is_bit_[index] ? fmt::format("{}{}\n", bits, codes_[index])
-                            : fmt::format("b{} {}\n", bits, codes_[index]);
-  }
-  void change(std::size_t index, double value) override {
-    text_ += fmt::format("r{} {}\n", value, codes_[index]);
+  void change(std::size_t index, const std::string& text) override {
+    const char* const kind = is_real_[index] ? "r" : "b";
+    text_ += is_bit_[index] ? fmt::format("{}{}\n", text, codes_[index])
+                            : fmt::format("{}{} {}\n", kind, text, codes_[index]);
   }
   void close() override { write_text(file_, text_); }
 
@@ -143,7 +146,7 @@ class VcdWriter : public WaveWriter {
   fs::path file_;
   std::string text_;
   std::vector<std::string> codes_;
-  std::vector<bool> is_bit_;
+  std::vector<bool> is_bit_, is_real_;
 };
 
 // Splits "v [9:-16]" and "v[9:-16]" into name and width; without a range the width is given.

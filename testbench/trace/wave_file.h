@@ -13,10 +13,11 @@ namespace phongpipe {
 // A variable of a waveform.
 struct WaveVariable {
   std::string scope;  // "phongpipe.rtl.pixel_datapath"
-  std::string name;
+  std::string name = {};
   int width = 1;          // bits
   int fraction_bits = 0;  // of them; the word is declared [high:−fraction_bits]
   bool real = false;      // a real number, in place of a word
+  bool is_signed = false;
 
   std::string full_name() const { return scope + "." + name; }
   // "[9:-16]" of a word of more than one bit, else empty.
@@ -35,9 +36,8 @@ class WaveWriter {
 
   // Times must not decrease.
   virtual void time(std::uint64_t ps) = 0;
-  // Variable `index` takes a value: of a word, 0s, 1s and xs from the highest bit.
-  virtual void change(std::size_t index, const std::string& bits) = 0;
-  virtual void change(std::size_t index, double value) = 0;
+  // Variable `index` takes a value: a word's 0s, 1s and xs from the highest bit, or a number.
+  virtual void change(std::size_t index, const std::string& text) = 0;
   // Throws ToolError if something was not written.
   virtual void close() = 0;
 };

@@ -38,6 +38,7 @@ struct Probe {
   WaveVariable variable;
   std::function<std::string()> bits;
   std::function<double()> real;  // if the variable is real
+  bool after = false;            // known once all modules have done the clock
 };
 
 // Both implementations of pixel_datapath in one clock, as they are before its edge.
@@ -51,8 +52,8 @@ struct Clock {
 class Probes {
  public:
   Probes(const DatapathConfiguration& configuration, const DatapathRegisters& systemc,
-         const RtlDatapath& rtl, const Clock& clock, const PipelineState& state)
-      : configuration_(configuration), systemc_(systemc), clock_(clock), state_(state), inside_(rtl) {
+         const RtlDatapath& rtl, const Clock& clock, const ActivityRecorder& activity)
+      : configuration_(configuration), systemc_(systemc), clock_(clock), activity_(activity), inside_(rtl) {
     add_word(kRoot, "cycle", 32, 0, [this] { return clock_.cycle; });
     add_registers();
     add_rtl();
@@ -72,17 +73,18 @@ class Probes {
   void add_word(const std::string& scope, const std::string& name, int width, int fraction_bits,
                 std::function<std::int64_t()> value) {
     Probe probe;
-    probe.variable = {scope, name, width, fraction_bits, false};
+    probe.variable = {scope, name, width, fraction_bits};
     probe.bits = [width, value = std::move(value)] { return bits_text(value(), width); };
     probes_.push_back(std::move(probe));
   }
   void add_register(const char* name, const DatapathSignal& signal,
                     const std::function<std::int64_t()>& value) {
     add_word(side(name, signal.block()), signal.name, signal.width, signal.fraction_bits, value);
+    probes_.back().variable.is_signed = signal.is_signed;
     if (signal.unit.empty() && signal.fraction_bits == 0) return;
     Probe probe;
-    probe.variable = {fmt::format("{}.lsb.{}.{}", kRoot, name, signal.block()), signal.name, 64, 0,
-                      true};
+    probe.variable = {fmt::format("{}.lsb.{}.{}", kRoot, name, signal.block()), signal.name};
+    probe.variable.real = true;
     probe.real = [signal, value] { return signal.real(value()); };
     probes_.push_back(std::move(probe));
   }
@@ -105,8 +107,7 @@ class Probes {
       if (is_array || is_clock || unused) continue;
       if (known_.count(signal.scope + "." + signal.name) != 0) continue;
       Probe probe;
-      probe.variable = {fmt::format("{}.rtl.{}", kRoot, signal.scope), signal.name, signal.width, 0,
-                        false};
+      probe.variable = {fmt::format("{}.rtl.{}", kRoot, signal.scope), signal.name, signal.width};
       probe.bits = [&signal] { return signal.text(); };
       probes_.push_back(std::move(probe));
     }
@@ -137,25 +138,30 @@ class Probes {
   }
 
   void add_pipeline() {
-    const PipelineState& s = state_;
-    const auto add = [this](const char* module, const char* name, int width, auto value) {
-      add_word(fmt::format("{}.systemc.{}", kRoot, module), name, width, 0,
-               [value] { return static_cast<std::int64_t>(value()); });
-    };
-    add("setup_engine", "busy", 1, [&s] { return s.setup_busy; });
-    add("setup_engine", "triangle", 32, [&s] { return s.setup_triangle; });
-    add("span_walker", "busy", 1, [&s] { return s.walker_busy; });
-    add("span_walker", "triangle", 32, [&s] { return s.walker_triangle; });
-    add("framebuffer", "busy", 1, [&s] { return s.framebuffer_busy; });
-    add("queues", "triangles", 16, [&s] { return s.triangles; });
-    add("queues", "spans", 16, [&s] { return s.spans; });
-    add("queues", "pixels", 16, [&s] { return s.pixels; });
+    for (const Module module : kModules) {
+      const auto add = [&](const char* name, int width, auto value) {
+        add_word(fmt::format("{}.systemc.{}", kRoot, phongpipe::name(module)), name, width, 0,
+                 [this, module, value] {
+                   return static_cast<std::int64_t>(value(activity_.now(module)));
+                 });
+        probes_.back().after = true;
+      };
+      const auto in = [](ModuleState state) {
+        return [state](const ModuleNow& now) { return now.state == state; };
+      };
+      add("busy", 1, in(ModuleState::busy));
+      add("stalled", 1, in(ModuleState::stalled));
+      add("waiting", 1, in(ModuleState::waiting));
+      add("triangle", 32, [](const ModuleNow& now) { return now.triangle; });
+      if (module == Module::setup_engine) continue;
+      add("queue_fill", 16, [](const ModuleNow& now) { return now.fill; });
+    }
   }
 
   const DatapathConfiguration& configuration_;
   const DatapathRegisters& systemc_;
   const Clock& clock_;
-  const PipelineState& state_;
+  const ActivityRecorder& activity_;
   RtlSignals inside_;
   std::set<std::string> known_;  // signals of the RTL that the table describes
   std::vector<Probe> probes_;
@@ -167,7 +173,7 @@ std::vector<WaveVariable> variables_of(const Probes& probes) {
   for (const Probe& probe : probes.all()) variables.push_back(probe.variable);
   // Before the variables of the same scope, so that scopes stay together.
   for (const char* name : {"rtl", "systemc"}) {
-    const WaveVariable clk = {fmt::format("{}.{}.pixel_datapath", kRoot, name), "clk", 1, 0, false};
+    const WaveVariable clk = {fmt::format("{}.{}.pixel_datapath", kRoot, name), "clk"};
     const auto place = std::lower_bound(
         variables.begin(), variables.end(), clk,
         [](const WaveVariable& a, const WaveVariable& b) { return a.scope < b.scope; });
@@ -189,33 +195,38 @@ class Recorder {
       if (variables_[i].name == "clk") {
         clocks_.push_back(i);
       } else {
-        probes_.push_back({i, &*probe++});
+        values_.push_back({i, &*probe++, {}});
       }
     }
   }
 
+  // Takes the values of a clock before its edge.
   void record(std::int64_t cycle) {
     if (next_ && cycle != *next_) leave(*next_);
     next_ = cycle + 1;
-    const std::uint64_t begin = static_cast<std::uint64_t>(cycle) * period_;
+    pending_ = cycle;
+    for (Value& value : values_) {
+      if (!value.probe->after) value.text = text_of(*value.probe);
+    }
+  }
+
+  // Writes them; call it when all modules have done the clock.
+  void write() {
+    if (!pending_) return;
+    const std::uint64_t begin = static_cast<std::uint64_t>(*pending_) * period_;
+    pending_.reset();
     writer_->time(begin);
     tick("1");
-    for (const auto& [index, probe] : probes_) {
-      if (probe->variable.real) {
-        const double value = probe->real();
-        std::string text = fmt::format("{}", value);
-        if (text == last_[index]) continue;
-        last_[index] = std::move(text);
-        writer_->change(index, value);
-      } else {
-        change(index, probe->bits());
-      }
+    for (Value& value : values_) {
+      if (value.probe->after) value.text = text_of(*value.probe);
+      change(value.variable, value.text);
     }
     writer_->time(begin + period_ / 2);
     tick("0");
   }
 
   void close() {
+    write();
     if (next_) {
       writer_->time(static_cast<std::uint64_t>(*next_) * period_);
       tick("1");
@@ -227,10 +238,13 @@ class Recorder {
   void tick(const char* value) {
     for (const std::size_t clock : clocks_) writer_->change(clock, value);
   }
-  void change(std::size_t index, std::string bits) {
-    if (bits == last_[index]) return;
-    writer_->change(index, bits);
-    last_[index] = std::move(bits);
+  static std::string text_of(const Probe& probe) {
+    return probe.variable.real ? fmt::format("{}", probe.real()) : probe.bits();
+  }
+  void change(std::size_t index, const std::string& text) {
+    if (text == last_[index]) return;
+    writer_->change(index, text);
+    last_[index] = text;
   }
   // The last clock before cycles that are not recorded has its edge, and then nothing is known.
   void leave(std::int64_t cycle) {
@@ -238,9 +252,10 @@ class Recorder {
     tick("1");
     writer_->time(static_cast<std::uint64_t>(cycle) * period_ + 1);
     tick("x");
-    for (const auto& [index, probe] : probes_) {
-      if (probe->variable.real) continue;
-      change(index, std::string(static_cast<std::size_t>(variables_[index].width), 'x'));
+    for (const Value& value : values_) {
+      const WaveVariable& variable = value.probe->variable;
+      if (variable.real) continue;
+      change(value.variable, std::string(static_cast<std::size_t>(variable.width), 'x'));
     }
   }
 
@@ -249,8 +264,14 @@ class Recorder {
   std::unique_ptr<WaveWriter> writer_;
   std::vector<std::string> last_;  // values, by variable
   std::vector<std::size_t> clocks_;
-  std::vector<std::pair<std::size_t, const Probe*>> probes_;  // by variable
-  std::optional<std::int64_t> next_;                          // cycle after the last recorded one
+  struct Value {
+    std::size_t variable = 0;
+    const Probe* probe = nullptr;
+    std::string text;
+  };
+  std::vector<Value> values_;
+  std::optional<std::int64_t> next_;     // cycle after the last recorded one
+  std::optional<std::int64_t> pending_;  // recorded and not yet written
 };
 
 // SystemC and RTL on the same inputs; what happens in the windows is recorded.
@@ -258,14 +279,14 @@ class TracedDatapath : public ClockedDatapath {
  public:
   TracedDatapath(const FrameSetup& frame, const RtlLibrary& library,
                  const std::vector<CycleWindow>& windows, const TraceTarget& target,
-                 const TraceOptions& options, const PipelineState& state,
+                 const TraceOptions& options, const ActivityRecorder& activity,
                  const std::filesystem::path& file, std::uint64_t period_ps)
       : windows_(windows),
         target_(target),
         rtl_drives_(options.rtl_drives),
         systemc_(frame.configuration, frame.cue_color),
         rtl_(library, frame.cue_color),
-        probes_(frame.configuration, systemc_, rtl_, clock_, state),
+        probes_(frame.configuration, systemc_, rtl_, clock_, activity),
         recorder_(file, probes_, period_ps) {
     rtl_.before_edge([this] {
       if (recording_) recorder_.record(clock_.cycle);
@@ -277,6 +298,7 @@ class TracedDatapath : public ClockedDatapath {
     systemc_.reset();
   }
   DatapathOutputs clock(const DatapathInputs& inputs) override {
+    recorder_.write();  // the clock before
     while (window_ < windows_.size() && windows_[window_].last < clock_.cycle) ++window_;
     recording_ = window_ < windows_.size() && windows_[window_].first <= clock_.cycle;
     clock_.inputs = inputs;
@@ -456,13 +478,13 @@ RecordedTrace record_trace(const PreparedFrame& frame, const Hardware& hardware,
   constexpr double kPicoseconds = 1000;  // in a nanosecond
   const auto period = static_cast<std::uint64_t>(std::llround(clock_ns * kPicoseconds));
   Child child([&] {
-    PipelineState state;
-    TracedDatapath datapath(frame.setup, library, windows, target, options, state, file, period);
+    ActivityRecorder activity(0);
+    TracedDatapath datapath(frame.setup, library, windows, target, options, activity, file, period);
     StreamHash hash;
     SimulationOptions simulation = simulation_options(options);
     simulation.detail = Detail::cycle;
     simulation.datapath = &datapath;
-    simulation.state = &state;
+    simulation.activity = &activity;
     simulation.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles,
                              std::size_t count) { hash.add(pixels, cycles, count); };
     const SimulationResult result = simulate(frame.setup, hardware.pipeline, simulation);
@@ -485,8 +507,8 @@ std::vector<WaveVariable> trace_variables(const DatapathConfiguration& configura
   const DatapathRegisters systemc(configuration);
   const RtlDatapath rtl(library);
   const Clock clock;
-  const PipelineState state;
-  return variables_of(Probes(configuration, systemc, rtl, clock, state));
+  const ActivityRecorder activity(0);
+  return variables_of(Probes(configuration, systemc, rtl, clock, activity));
 }
 
 }  // namespace phongpipe
