@@ -55,6 +55,7 @@ struct BlockValues {
   bool open = false;           // the gate
   std::vector<bool> lit;
   std::vector<double> clamped, sum;  // LSB
+  std::optional<double> own_share;   // of the pixel's own colour under depth cueing
   std::vector<bool> saturated;
   std::vector<int> output;
 };
@@ -72,7 +73,8 @@ BlockValues block_values(const PixelStory& story, const SpanStory& span) {
   values.lit = channels.of(span.compare.lit);
   values.clamped = channels.of(span.read.clamped, f.sum_fraction_bits());
   values.sum = channels.of(span.add.sum, 0);
-  for (const double sum : values.sum) values.saturated.push_back(sum > kOutputMax);
+  if (f.depth_cue) values.own_share = std::ldexp(span.add.cue_factor, -kCueFactorBits);
+  values.saturated = channels.of(span.saturated);
   values.output = channels.of(span.color);
   return values;
 }
@@ -255,11 +257,12 @@ class TextReport {
     }
     line("lit", list(values.lit));
     line("clamped", list(values.clamped) + " LSB");
-    line("sum", fmt::format("{} LSB{}", list(values.sum),
-                            std::count(values.saturated.begin(), values.saturated.end(), true) > 0
-                                ? ", saturated"
-                                : ""));
-    line("output", list(values.output) + " LSB");
+    line("sum", list(values.sum) + " LSB");
+    if (values.own_share) {
+      line("cue", fmt::format("{:.6g} of the pixel's own colour", *values.own_share));
+    }
+    line("output",
+         fmt::format("{} LSB; saturated: {}", list(values.output), list(values.saturated)));
     plain("    registers of the first stage at the span's start");
     registers(span.start);
     plain("    registers of all stages, each while it holds the pixel");
@@ -324,6 +327,7 @@ ordered_json span_json(const PixelStory& story, const SpanStory& span) {
   json["lit"] = values.lit;
   json["clamped_lsb"] = values.clamped;
   json["sum_lsb"] = values.sum;
+  if (values.own_share) json["own_share"] = *values.own_share;
   json["saturated"] = values.saturated;
   json["output"] = values.output;
   json["start"] = registers_json(span.start);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "model/fixed/depth_cue.h"
 #include "model/scene/input_error.h"
 #include "model/shading/screen_interpolator.h"
 #include "sim/pipeline.h"
@@ -82,6 +83,11 @@ SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
     if (holds(DatapathStage::add)) story.add = registers.add();
   }
   story.color = registers.outputs(inputs).pixel.color;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(configuration.channels); ++c) {
+    const std::int32_t cue = span.first_pass ? frame.cue_color[c] : 0, sum = story.add.sum[c];
+    story.saturated[c] =
+        (configuration.depth_cue ? faded(sum, cue, story.add.cue_factor) : sum) > kOutputMax;
+  }
   return story;
 }
 

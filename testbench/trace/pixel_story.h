@@ -60,7 +60,8 @@ struct SpanStory {
   DatapathRegisters::Compare compare;
   DatapathRegisters::Read read;
   DatapathRegisters::Add add;
-  std::uint32_t color = 0;  // at the output
+  std::uint32_t color = 0;             // at the output
+  std::array<bool, 3> saturated = {};  // whether more than the output's range was left
 };
 
 // What one light does to the triangle that won, at the pixel.
