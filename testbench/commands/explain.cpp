@@ -1,7 +1,9 @@
 // phongpipe explain: the life of one pixel, and where its error comes from.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "model/fixed/color_sum.h"
 #include "testbench/system/terminal.h"
 
 namespace phongpipe {
@@ -346,6 +345,7 @@ ordered_json light_json(const PixelStory& story, const LightStory& light) {
   }
   if (!light.span) return json;
   json["expansion"] = {{"x", light.expansion->x}, {"y", light.expansion->y}};
+  json["coefficients"] = ordered_json::object();
   for (const SeriesCoefficients& series : light.coefficients) {
     std::vector<double> rounded;
     for (std::size_t i = 0; i < series.rounded.size(); ++i) rounded.push_back(in_units(series, i));
