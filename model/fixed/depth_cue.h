@@ -14,12 +14,16 @@ inline std::int32_t cue_factor(std::int64_t v) {
                                                             std::int64_t{1} << kCueFactorBits));
 }
 
-// cue + (sum − cue)·factor, rounded to nearest and saturated. `sum` is in output LSB, rounded, not
-// negative and not yet saturated, so that overexposed pixels fade correctly.
-inline std::uint8_t depth_cue(std::int32_t sum, std::int32_t cue, std::int32_t factor) {
+// cue + (sum − cue)·factor, rounded to nearest. `sum` is in output LSB, rounded, not negative and
+// not yet saturated, so that overexposed pixels fade correctly.
+inline std::int32_t faded(std::int32_t sum, std::int32_t cue, std::int32_t factor) {
   constexpr std::int32_t kHalf = 1 << (kCueFactorBits - 1);
-  const std::int32_t moved = cue + (((sum - cue) * factor + kHalf) >> kCueFactorBits);
-  return static_cast<std::uint8_t>(std::min(moved, kOutputMax));
+  return cue + (((sum - cue) * factor + kHalf) >> kCueFactorBits);
+}
+
+// The same, saturated.
+inline std::uint8_t depth_cue(std::int32_t sum, std::int32_t cue, std::int32_t factor) {
+  return static_cast<std::uint8_t>(std::min(faded(sum, cue, factor), kOutputMax));
 }
 
 }  // namespace phongpipe

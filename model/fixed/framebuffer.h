@@ -66,7 +66,12 @@ class Framebuffer {
     }
   }
 
-  // Number of pixels of the image. Indices count row by row from the top.
+  // Indices of pixels count row by row from the top.
+  std::size_t index_of(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+  // Number of pixels of the image.
   std::size_t size() const {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   }
@@ -82,6 +87,8 @@ class Framebuffer {
   bool owned(std::size_t index, std::uint32_t triangle) const {
     return owners_[index] == triangle + 1;
   }
+  // The owner of a covered pixel. Owners must be kept.
+  std::uint32_t owner(std::size_t index) const { return owners_[index] - 1; }
   // Channel 0 in the low byte; the background if the pixel is not covered.
   std::uint32_t color(std::size_t index) const {
     return covered(index) ? cells_[index].color : background_;
@@ -100,10 +107,6 @@ class Framebuffer {
   template <typename T>
   using Zeroed = std::unique_ptr<T[], Free>;
 
-  std::size_t index_of(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-           static_cast<std::size_t>(x);
-  }
   static std::uint32_t add_saturated(std::uint32_t a, std::uint32_t b) {
     std::uint32_t sum = 0;
     for (int shift = 0; shift < 3 * kOutputBits; shift += kOutputBits) {

@@ -33,6 +33,20 @@ void ErrorStatistics::add(const ErrorStatistics& others) {
 
 namespace {
 
+// Larger errors first; of equal ones, the lower index.
+bool is_worse(const PixelError& a, const PixelError& b) {
+  return a.error_lsb != b.error_lsb ? a.error_lsb > b.error_lsb : a.index < b.index;
+}
+
+// Adds a pixel to the worst ones, which are in order, if it belongs there.
+void keep_worst(std::vector<PixelError>& worst, const PixelError& pixel) {
+  if (worst.size() == kWorstPixels) {
+    if (!is_worse(pixel, worst.back())) return;
+    worst.pop_back();
+  }
+  worst.insert(std::upper_bound(worst.begin(), worst.end(), pixel, is_worse), pixel);
+}
+
 // Statistics of some triangles; their pixels of the pictures, which no other triangle shows, are
 // drawn into `whole`.
 Accuracy measure_triangles(const FrameSetup& frame, const ModelFrame& model, std::uint32_t first,
@@ -50,6 +64,7 @@ Accuracy measure_triangles(const FrameSetup& frame, const ModelFrame& model, std
       accuracy.total.add(links.output[c] - links.exact[c]);
       largest = std::max(largest, std::fabs(links.output[c] - links.exact[c]));
     }
+    keep_worst(accuracy.worst_pixels, {links.index, largest});
     if (!pictures) return;
     std::uint8_t* const exact = whole.exact_picture.pixel(links.index);
     for (int c = 0; c < channels; ++c) {
@@ -95,6 +110,7 @@ Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool
   for (std::thread& thread : threads) thread.join();
   for (const Accuracy& part : parts) {
     whole.visible_pixels += part.visible_pixels;
+    for (const PixelError& pixel : part.worst_pixels) keep_worst(whole.worst_pixels, pixel);
     whole.total.add(part.total);
     whole.series.add(part.series);
     whole.rounding.add(part.rounding);

@@ -34,8 +34,15 @@ struct ErrorStatistics {
   double share(std::uint64_t count) const;
 };
 
+constexpr std::size_t kWorstPixels = 10;
+struct PixelError {
+  std::size_t index = 0;  // of the pixel, row by row from the top
+  double error_lsb = 0;   // the largest of its channels, without sign
+};
+
 struct Accuracy {
   std::uint64_t visible_pixels = 0;
+  std::vector<PixelError> worst_pixels;  // at most kWorstPixels, the largest error first
   ErrorStatistics total;
   // Each is one step of the chain; at every pixel they add up to the total.
   ErrorStatistics series;    // second-degree polynomial in place of the exact reflection

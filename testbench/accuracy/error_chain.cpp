@@ -11,14 +11,20 @@ namespace {
 
 // What one light adds to the pixels of a triangle, link by link; not clamped.
 struct PassLight {
-  Color polynomial = Color::Zero(), rounded = Color::Zero(), table = Color::Zero();
+  Color polynomial = Color::Zero(), rounded = Color::Zero(), address = Color::Zero(),
+        table = Color::Zero();
 };
+
+// `statistics`: without ErrorChain::address, which costs a power a pixel.
+enum class Links { statistics, all };
 
 // One triangle's pixels under one light by every link of the chain between exact Phong and output.
 class PassChain {
  public:
-  PassChain(const FrameSetup& frame, const FrontEnd& front_end, const TriangleWork& work)
-      : configuration_(frame.configuration),
+  PassChain(const FrameSetup& frame, const FrontEnd& front_end, const TriangleWork& work,
+            Links links)
+      : links_(links),
+        configuration_(frame.configuration),
         front_end_(front_end),
         work_(work),
         full_plan_(work.setup.material->plan),
@@ -74,8 +80,10 @@ class PassChain {
     for (std::size_t c = 0; c < channels; ++c) {
       const auto k = static_cast<Eigen::Index>(c);
       light.polynomial[k] += ambient_[k] + std::max(0.0, real[c]);
-      light.rounded[k] += rounded_ambient_[k] + std::max(0.0, rounded[c]);
-      light.table[k] += rounded_ambient_[k] + std::max(0.0, rounded[c]);
+      const double diffuse = rounded_ambient_[k] + std::max(0.0, rounded[c]);
+      light.rounded[k] += diffuse;
+      light.address[k] += diffuse;
+      light.table[k] += diffuse;
     }
     if (!is_present(full_plan_.specular) || !span.row.lit) return;
     const bool real_open = open(real, is_present(full_plan_.gate) ? real_.gate(x, y) : 0);
@@ -84,15 +92,20 @@ class PassChain {
     light.polynomial += real_highlight;
     if (!span.highlight) {  // left out, as the table's words are 0
       light.rounded += real_highlight;
+      light.address += real_highlight;
       return;
     }
     const std::int64_t gate = value(span.gate, i, configuration_.diffuse_width());
     if (!open(rounded, static_cast<double>(gate))) return;
     const std::int64_t specular = value(span.specular, i, configuration_.specular_width());
     light.rounded += full_highlight(static_cast<double>(specular) * specular_unit_);
-    const auto address = static_cast<std::size_t>(ExponentRom::address(configuration_, specular));
+    const int address = ExponentRom::address(configuration_, specular);
+    if (links_ == Links::all) {
+      light.address += highlight_at(ExponentRom::entry_x(configuration_, address));
+    }
     for (std::size_t c = 0; c < channels; ++c) {
-      light.table[static_cast<Eigen::Index>(c)] += table_->roms[c].words()[address] * word_unit_;
+      light.table[static_cast<Eigen::Index>(c)] +=
+          table_->roms[c].words()[static_cast<std::size_t>(address)] * word_unit_;
     }
   }
 
@@ -103,7 +116,9 @@ class PassChain {
   }
   // Of a value of the specular series, in addresses.
   Color full_highlight(double address) const {
-    const double x = std::clamp(address / configuration_.rom_words(), 0.0, 1.0);
+    return highlight_at(std::clamp(address / configuration_.rom_words(), 0.0, 1.0));
+  }
+  Color highlight_at(double x) const {
     return kOutputMax * table_->specular * exact_power(x, table_->shininess);
   }
   bool open(const std::array<double, 3>& diffuse, double gate) const {
@@ -118,6 +133,7 @@ class PassChain {
     return diffuse[0] > 0 || diffuse[1] > 0 || diffuse[2] > 0;
   }
 
+  Links links_;
   const DatapathConfiguration& configuration_;
   const FrontEnd& front_end_;
   TriangleWork work_;
@@ -133,7 +149,8 @@ class PassChain {
 // A triangle under all lights, with depth cueing.
 class TriangleChain {
  public:
-  TriangleChain(const FrameSetup& frame, const FrontEnd& front_end, std::uint32_t triangle)
+  TriangleChain(const FrameSetup& frame, const FrontEnd& front_end, std::uint32_t triangle,
+                Links links)
       : frame_(frame),
         phong_(*frame.scene,
                frame.geometry->materials[frame.geometry->triangles[triangle].material],
@@ -144,7 +161,7 @@ class TriangleChain {
     TriangleWork work;
     for (std::uint32_t pass = 0; pass < frame.passes; ++pass) {
       if (front_end.set_up(triangle, pass, work) == SetupOutcome::nothing) continue;
-      passes_.emplace_back(frame, front_end, work);
+      passes_.emplace_back(frame, front_end, work, links);
     }
   }
 
@@ -164,6 +181,7 @@ class TriangleChain {
     chain.exact = exact_[static_cast<std::size_t>(i)];
     chain.polynomial = shown(light.polynomial, i);
     chain.rounded = shown(light.rounded, i);
+    chain.address = shown(light.address, i);
     chain.table = shown(light.table, i);
   }
 
@@ -183,6 +201,22 @@ class TriangleChain {
   std::vector<Color> exact_;
 };
 
+void take_output(const FrameSetup& frame, const ModelFrame& model, ErrorChain& links) {
+  const std::uint32_t output = model.framebuffer.color(links.index);
+  for (int c = 0; c < frame.configuration.channels; ++c) {
+    links.output[c] = (output >> (c * kOutputBits)) & std::uint32_t{kOutputMax};
+  }
+}
+
+Color rounded_link(const Color& link, int channels) {
+  constexpr int kFraction = 40;
+  Color result = Color::Zero();
+  for (int c = 0; c < channels; ++c) {
+    result[c] = std::ldexp(std::round(std::ldexp(link[c], kFraction)), -kFraction);
+  }
+  return result;
+}
+
 }  // namespace
 
 void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
@@ -197,7 +231,7 @@ void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model, st
   const FrontEnd front_end(frame);
   ErrorChain links;
   for (std::uint32_t triangle = first; triangle < end; ++triangle) {
-    TriangleChain chain(frame, front_end, triangle);
+    TriangleChain chain(frame, front_end, triangle, Links::statistics);
     for (const RowSpan& row : chain.rows()) {
       chain.start(row);
       links.index = static_cast<std::size_t>(row.y) * static_cast<std::size_t>(frame.width) +
@@ -205,14 +239,47 @@ void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model, st
       for (int i = 0; i < row.length; ++i, ++links.index) {
         if (!model.framebuffer.owned(links.index, triangle)) continue;  // hidden
         chain.at(i, links);
-        const std::uint32_t output = model.framebuffer.color(links.index);
-        for (int c = 0; c < frame.configuration.channels; ++c) {
-          links.output[c] = (output >> (c * kOutputBits)) & std::uint32_t{kOutputMax};
-        }
+        take_output(frame, model, links);
         visit(links);
       }
     }
   }
+}
+
+std::size_t ErrorSplit::largest_part() const {
+  const auto smaller = [](const Color& a, const Color& b) {
+    return a.abs().maxCoeff() < b.abs().maxCoeff();
+  };
+  return static_cast<std::size_t>(std::max_element(parts.begin(), parts.end(), smaller) -
+                                  parts.begin());
+}
+
+ErrorSplit split_error(const PreparedFrame& frame, const ModelFrame& model, int x, int y) {
+  ErrorChain links;
+  links.index = model.framebuffer.index_of(x, y);
+  take_output(frame.setup, model, links);
+  const std::uint32_t piece = model.framebuffer.owner(links.index);
+  const FrontEnd front_end(frame.setup);
+  TriangleChain chain(frame.setup, front_end, piece, Links::all);
+  for (const RowSpan& row : chain.rows()) {
+    if (row.y != y) continue;
+    chain.start(row);
+    chain.at(x - row.x, links);
+  }
+  const Geometry& geometry = frame.prepared->geometry;
+  const ScreenTriangle& whole = geometry.triangles[frame.subdivision().whole[piece]];
+  Color exact;
+  PhongTriangle(frame.scene(), geometry.materials[whole.material], whole).shade(x, y, 1, &exact);
+
+  std::array<Color, kErrorParts.size() + 1> colors = {
+      exact,         links.exact, links.polynomial, links.rounded,
+      links.address, links.table, links.output};
+  for (Color& color : colors) color = rounded_link(color, frame.setup.configuration.channels);
+  ErrorSplit split;
+  split.exact = colors.front();
+  split.output = colors.back();
+  for (std::size_t i = 0; i < split.parts.size(); ++i) split.parts[i] = colors[i + 1] - colors[i];
+  return split;
 }
 
 }  // namespace phongpipe

@@ -2,11 +2,14 @@
 // coefficients → ROM → 8-bit output. All lights together.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <string_view>
 
 #include "model/fixed/front_end.h"
 #include "model/fixed/model_frame.h"
+#include "model/fixed/prepared_frame.h"
 
 namespace phongpipe {
 
@@ -16,8 +19,9 @@ struct ErrorChain {
   Color exact;            // Phong shading, normals normalised at the pixel
   Color polynomial;       // the series in real arithmetic, exact powers
   Color rounded;          // the datapath's series, exact powers
-  Color table;            // the datapath's series and ROM words
-  Color output;           // the datapath's output
+  Color address;  // exact powers of what the ROM's addresses stand for; in split_error() only
+  Color table;    // the datapath's series and ROM words
+  Color output;   // the datapath's output
 };
 
 // Calls `visit` for every visible pixel of the model's frame, triangle by triangle from `first` to
@@ -27,5 +31,32 @@ void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model, st
 // The same for all triangles.
 void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
                             const std::function<void(const ErrorChain&)>& visit);
+
+// The causes of a pixel's error, in the order of the chain.
+struct ErrorPart {
+  std::string_view name, meaning;
+};
+constexpr std::array<ErrorPart, 6> kErrorParts = {{
+    {"normals", "interpolated over the piece that is shaded, not the whole triangle"},
+    {"series", "second-degree polynomial in place of the exact reflection"},
+    {"coefficient_rounding", "of the T_i and of the starts of spans"},
+    {"table_address", "power of the x that the ROM's address stands for"},
+    {"table_word", "rounding of the ROM's word"},
+    {"output_rounding", "to 8 bits, and under depth cueing of its factor"},
+}};
+
+// The error of one pixel by channel, in LSB; channels that are not in use are 0. Colours along the
+// chain are rounded to multiples of 2^-40 LSB. Their differences, and all sums of these, then have
+// at most 53 bits: in double precision too the parts add up to output − exact, to the last bit.
+struct ErrorSplit {
+  Color output, exact;
+  std::array<Color, kErrorParts.size()> parts;
+
+  Color error() const { return output - exact; }
+  // Place in `parts` of what has the largest size in some channel.
+  std::size_t largest_part() const;
+};
+// Of covered pixel (x, y) of the model's frame.
+ErrorSplit split_error(const PreparedFrame& frame, const ModelFrame& model, int x, int y);
 
 }  // namespace phongpipe

@@ -59,6 +59,7 @@ int run_program(int argc, char** argv) {
   add_compare(application, run);
   add_sweep(application, run);
   add_regress(application, run);
+  add_explain(application, run);
   add_report(application, run);
   add_export(application, run);
   add_merge(application, run);

@@ -24,6 +24,7 @@ constexpr int kCheckFailed = 1, kBadInput = 2, kToolFailed = 3;
 using Run = std::function<int()>;  // returns the exit status
 
 void add_compare(CLI::App& application, Run& run);
+void add_explain(CLI::App& application, Run& run);
 void add_export(CLI::App& application, Run& run);
 void add_merge(CLI::App& application, Run& run);
 void add_regress(CLI::App& application, Run& run);

@@ -327,6 +327,12 @@ ordered_json report_json(const VerificationResult& r) {
     if (metric.json.empty()) continue;
     json[ordered_json::json_pointer(std::string(metric.json))] = metric.value(r);
   }
+  json["worst_pixels"] = ordered_json::array();
+  for (const PixelError& pixel : r.accuracy.worst_pixels) {
+    const auto width = static_cast<std::size_t>(r.width);
+    json["worst_pixels"].push_back(
+        {{"x", pixel.index % width}, {"y", pixel.index / width}, {"error_lsb", pixel.error_lsb}});
+  }
   json["effects"] = effects_json(r);
   const auto add = [&json](const char* name, const ImplementationResult& found) {
     ordered_json& entry = json["implementations"][name];

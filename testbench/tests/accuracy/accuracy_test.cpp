@@ -114,6 +114,30 @@ TEST(Accuracy, ShippedScenesStayCloseToExactPhong) {
   }
 }
 
+TEST(Accuracy, WorstPixelsAreTheTenLargestErrorsOnAnyNumberOfCores) {
+  for (const char* scene : {"torus", "two-planes"}) {  // of the latter, many are equal
+    const Measured m(scene);
+    std::vector<std::pair<double, std::size_t>> all;  // minus the error, and the index
+    for_each_visible_pixel(m.frame.setup, m.model, [&](const ErrorChain& c) {
+      double largest = 0;
+      for (int k = 0; k < m.frame.setup.configuration.channels; ++k) {
+        largest = std::max(largest, std::fabs(c.output[k] - c.exact[k]));
+      }
+      all.emplace_back(-largest, c.index);
+    });
+    std::sort(all.begin(), all.end());
+    for (const bool one_core : {false, true}) {
+      const Accuracy accuracy = measure_accuracy(m.frame.setup, m.model, false, one_core);
+      ASSERT_EQ(accuracy.worst_pixels.size(), kWorstPixels);
+      EXPECT_EQ(accuracy.worst_pixels.front().error_lsb, accuracy.total.largest_lsb);
+      for (std::size_t i = 0; i < kWorstPixels; ++i) {
+        EXPECT_EQ(accuracy.worst_pixels[i].error_lsb, -all[i].first) << scene;
+        EXPECT_EQ(accuracy.worst_pixels[i].index, all[i].second) << scene;
+      }
+    }
+  }
+}
+
 TEST(Accuracy, MoreFractionBitsRoundLess) {
   const double coarse = Measured("sphere", {"diffuse_fraction_bits=4", "specular_fraction_bits=1"})
                             .accuracy()

@@ -16,6 +16,7 @@ TEST_F(Program, HelpHasAnExampleAtEachLevel) {
                                                     {"compare", "--help"},
                                                     {"sweep", "--help"},
                                                     {"regress", "--help"},
+                                                    {"explain", "--help"},
                                                     {"export", "--help"},
                                                     {"merge", "--help"},
                                                     {"report", "--help"}}) {
