@@ -95,17 +95,6 @@ Light read_light(const TomlTable& table) {
   return light;
 }
 
-Material read_material(const std::string& name, const TomlTable& table) {
-  Material material;
-  material.name = name;
-  material.ambient = color(table, "ambient");
-  material.diffuse = color(table, "diffuse");
-  material.specular = color(table, "specular");
-  material.shininess = table.number("shininess", kNotNegative);
-  table.finish();
-  return material;
-}
-
 DepthCue read_depth_cue(const TomlTable& table) {
   DepthCue cue;
   cue.near = table.number("near", kCoordinate);
@@ -118,10 +107,7 @@ DepthCue read_depth_cue(const TomlTable& table) {
   return cue;
 }
 
-}  // namespace
-
-Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  const TomlTable root = TomlTable::read_file(file, overrides);
+Scene read_scene(const TomlTable& root) {
   // Known before the first error, so that "did you mean" has all words.
   for (const char* key :
        {"image", "camera", "shading", "light", "object", "material", "depth_cue"}) {
@@ -129,7 +115,7 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
   }
   root.finish();
   Scene scene;
-  scene.source = file.string();
+  scene.source = root.file().string();
   scene.image = read_image(root.table("image"));
   for (const auto& [name, table] : root.named_tables("material")) {
     scene.materials.push_back(read_material(name, table));
@@ -154,6 +140,16 @@ Scene load_scene(const std::filesystem::path& file, const std::vector<std::strin
     scene.depth_cue = read_depth_cue(*cue);
   }
   return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return read_scene(TomlTable::read_file(file, overrides));
+}
+
+Scene parse_scene(const std::string& text, const std::filesystem::path& source) {
+  return read_scene(TomlTable::read_text(text, source));
 }
 
 }  // namespace phongpipe

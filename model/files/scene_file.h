@@ -14,4 +14,8 @@ namespace phongpipe {
 // TomlTable::read_file.
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
+// The same of a text; `source` is what messages call it. Files that it names are looked for beside
+// `source`.
+Scene parse_scene(const std::string& text, const std::filesystem::path& source);
+
 }  // namespace phongpipe

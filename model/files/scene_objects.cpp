@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -46,6 +48,41 @@ void read_primitive(const TomlTable& table, Object& object) {
   }
 }
 
+// vertices = [[x, y, z, nx, ny, nz], …], faces = [[a, b, c, material], …], whose materials are the
+// tables [[object.face_materials]].
+Mesh read_mesh(const TomlTable& table) {
+  Mesh mesh;
+  for (const std::vector<double>& v : table.rows("vertices", 6, kCoordinate)) {
+    mesh.positions.emplace_back(v[0], v[1], v[2]);
+    const Vec3 normal(v[3], v[4], v[5]);
+    if (normal.norm() < kShortestVector) {
+      table.fail("vertices", fmt::format("the normal of vertex {} is zero", mesh.normals.size()));
+    }
+    constexpr double kUnit = 1e-12;  // what we wrote keeps its last bits
+    mesh.normals.push_back(std::abs(normal.norm() - 1) > kUnit ? Vec3(normal.normalized())
+                                                               : normal);
+  }
+  if (table.has("face_materials")) {
+    for (const TomlTable& material : table.tables("face_materials")) {
+      mesh.materials.push_back(read_material(material.text("name"), material));
+    }
+  }
+  const std::size_t materials = std::max<std::size_t>(mesh.materials.size(), 1);
+  for (const std::vector<double>& f : table.rows("faces", 4, {0, 1e9})) {
+    MeshFace face;
+    for (std::size_t i = 0; i < 3; ++i) face.vertices[i] = static_cast<std::uint32_t>(f[i]);
+    face.material = static_cast<std::uint32_t>(f[3]);
+    const bool known = std::all_of(face.vertices.begin(), face.vertices.end(),
+                                   [&](auto vertex) { return vertex < mesh.positions.size(); });
+    if (!known || face.material >= materials) {
+      table.fail("faces", fmt::format("face {} names a vertex or a material that is not there",
+                                      mesh.faces.size()));
+    }
+    mesh.faces.push_back(face);
+  }
+  return mesh;
+}
+
 fs::path existing_file(const TomlTable& table, std::string_view key) {
   fs::path file = table.file().parent_path() / table.text(key);
   std::error_code ignored;
@@ -59,7 +96,7 @@ fs::path existing_file(const TomlTable& table, std::string_view key) {
 }
 
 void read_placement(const TomlTable& table, Object& object) {
-  if (table.has("triangles")) {
+  if (table.has("triangles") || table.has("triangle_rows")) {
     for (const std::string_view key : {"translate", "rotate_degrees", "scale"}) {
       table.refuse(key, "screen-space triangles stay where they are");
     }
@@ -87,14 +124,25 @@ class ObjectReader {
 Object ObjectReader::read(const TomlTable& table) {
   Object object;
   fs::path file;
-  if (table.has("mesh") + table.has("primitive") + table.has("triangles") != 1) {
+  const bool in_file = table.has("mesh") || table.has("triangles");
+  if (table.has("mesh") + table.has("primitive") + table.has("triangles") + table.has("vertices") +
+          table.has("triangle_rows") !=
+      1) {
     throw InputError(table.file(), table.line(),
-                     "[[object]] needs exactly one of 'mesh', 'primitive' and 'triangles'");
+                     "[[object]] needs exactly one of 'mesh', 'primitive', 'triangles', 'vertices' "
+                     "and 'triangle_rows'");
   }
   if (table.has("primitive")) {
     read_primitive(table, object);
   } else {
     table.refuse("segments", "only a primitive has them");
+  }
+  if (table.has("vertices")) object.mesh = std::make_shared<const Mesh>(read_mesh(table));
+  if (table.has("triangle_rows")) {
+    object.screen_triangles = std::make_shared<const std::vector<ScreenTriangle>>(
+        parse_triangle_csv(table.text("triangle_rows"), table.file(), image_));
+  }
+  if (in_file) {
     file = existing_file(table, table.has("mesh") ? "mesh" : "triangles");
   }
   read_placement(table, object);

@@ -20,5 +20,7 @@ Vec3 vector(const TomlTable& table, std::string_view key, const Vec3& fallback);
 Vec3 unit_vector(const TomlTable& table, std::string_view key);
 Color color(const TomlTable& table, std::string_view key);
 Color color(const TomlTable& table, std::string_view key, const Color& fallback);
+// All of a material but its name.
+Material read_material(const std::string& name, const TomlTable& table);
 
 }  // namespace phongpipe

@@ -177,7 +177,11 @@ void apply_override(toml::table& document, const std::string& text) {
 
 TomlTable TomlTable::read_file(const std::filesystem::path& file,
                                const std::vector<std::string>& overrides) {
-  const std::string text = read_whole_file(file);
+  return read_text(read_whole_file(file), file, overrides);
+}
+
+TomlTable TomlTable::read_text(const std::string& text, const std::filesystem::path& file,
+                               const std::vector<std::string>& overrides) {
   try {
     toml::table parsed = toml::parse(text, file.string());
     for (const std::string& change : overrides) apply_override(parsed, change);
@@ -283,6 +287,30 @@ std::array<int, 2> TomlTable::integer_pair(std::string_view key, int min, int ma
   return state_->numbers<int, 2>(
       key, "two whole numbers, such as [64, 32]",
       [&](const toml::node& node) { return integer_fault(node, min, max); });
+}
+
+std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size_t columns,
+                                                 NumberRange range) const {
+  const toml::node& node = state_->require(key);
+  const toml::array* const outer = node.as_array();
+  if (outer == nullptr) fail(key, fmt::format("{} must be rows of {} numbers", key, columns));
+  std::vector<std::vector<double>> rows;
+  rows.reserve(outer->size());
+  for (const toml::node& row : *outer) {
+    const toml::array* const cells = row.as_array();
+    if (cells == nullptr || cells->size() != columns) {
+      fail(key, fmt::format("row {} of {} must be {} numbers", rows.size() + 1, key, columns));
+    }
+    std::vector<double>& values = rows.emplace_back();
+    for (const toml::node& cell : *cells) {
+      const std::string fault = number_fault(cell, range);
+      if (!fault.empty()) {
+        fail(key, fmt::format("a number in row {} of {} {}", rows.size(), key, fault));
+      }
+      values.push_back(*cell.value<double>());
+    }
+  }
+  return rows;
 }
 
 std::ptrdiff_t TomlTable::choice_index(std::string_view key,

@@ -32,6 +32,10 @@ class TomlTable {
   static TomlTable read_file(const std::filesystem::path& file,
                              const std::vector<std::string>& overrides = {});
 
+  // The same of a text; `file` is what messages call it.
+  static TomlTable read_text(const std::string& text, const std::filesystem::path& file,
+                             const std::vector<std::string>& overrides = {});
+
   const std::filesystem::path& file() const;
   unsigned line() const;                      // of the table
   unsigned line(std::string_view key) const;  // of the key, or of the table when it is absent
@@ -52,6 +56,10 @@ class TomlTable {
   std::array<double, 3> color(std::string_view key) const;
   // [a, b], whole numbers
   std::array<int, 2> integer_pair(std::string_view key, int min, int max) const;
+
+  // [[a, b, …], …]: rows of `columns` numbers.
+  std::vector<std::vector<double>> rows(std::string_view key, std::size_t columns,
+                                        NumberRange range) const;
 
   template <class Enum>
   using Choices = std::initializer_list<std::pair<std::string_view, Enum>>;

@@ -26,8 +26,7 @@ class CsvReader {
  public:
   CsvReader(const std::filesystem::path& file, const Image& image) : file_(file), image_(image) {}
 
-  std::vector<ScreenTriangle> run() {
-    const std::string text = read_whole_file(file_);
+  std::vector<ScreenTriangle> run(const std::string& text) {
     LineReader reader(text);
     std::vector<ScreenTriangle> triangles;
     bool header_seen = false;
@@ -157,7 +156,13 @@ std::string dump_header(std::size_t lights) {
 
 std::vector<ScreenTriangle> read_triangle_csv(const std::filesystem::path& file,
                                               const Image& image) {
-  return CsvReader(file, image).run();
+  return parse_triangle_csv(read_whole_file(file), file, image);
+}
+
+std::vector<ScreenTriangle> parse_triangle_csv(const std::string& text,
+                                               const std::filesystem::path& file,
+                                               const Image& image) {
+  return CsvReader(file, image).run(text);
 }
 
 std::string triangles_csv(const Scene& scene, const Geometry& geometry) {

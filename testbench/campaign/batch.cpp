@@ -9,6 +9,7 @@
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/record_json.h"
 #include "testbench/system/tool_error.h"
+#include "testbench/trace/capsule.h"
 
 namespace phongpipe {
 namespace {
@@ -31,7 +32,12 @@ RunResult crashed(const std::string& message, const std::string& bucket) {
 
 RunResult result_of(const ResolvedRun& run) {
   try {
-    return summary_of(verify(run.scene, run.hardware, run.options));
+    const VerificationResult result = verify(run.scene, run.hardware, run.options);
+    RunResult summary = summary_of(result);
+    if (!divergence_text(result).empty()) {
+      summary.capsule = capsule_text(run.scene->scene, result);
+    }
+    return summary;
   } catch (const InputError& error) {
     return refused(error.what());
   } catch (const std::bad_alloc&) {

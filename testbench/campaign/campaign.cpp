@@ -17,6 +17,7 @@
 #include "testbench/campaign/loader.h"
 #include "testbench/rtl/rtl_builder.h"
 #include "testbench/rtl/rtl_library.h"
+#include "testbench/system/output_file.h"
 #include "testbench/system/tool_error.h"
 
 namespace phongpipe {
@@ -301,6 +302,7 @@ class Campaign {
     stored.values = asked.values;
     stored.result = result;
     stored.seconds = seconds;
+    if (!result.capsule.empty()) keep_capsule(stored.result, run.identity);
     Outcome& outcome = stored.result.outcome;
     if (options_.overflow_is_refusal && outcome == Outcome::failed && result.bucket == kOverflow) {
       outcome = Outcome::refused;
@@ -316,6 +318,16 @@ class Campaign {
       if (options_.fail_fast) stop();
     }
     finished_.push_back(std::move(stored));
+  }
+
+  // The message then says how to see the divergence again.
+  void keep_capsule(RunResult& result, const std::string& identity) const {
+    const std::filesystem::path file = options_.failures / (identity + ".toml");
+    std::filesystem::create_directories(options_.failures);
+    write_text(file, result.capsule);
+    result.message += "; again by phongpipe replay " + shell_word(file.string());
+    const std::filesystem::path& rtl = runs_.front().request.options.rtl_sources;
+    if (!rtl.empty()) result.message += " --rtl " + shell_word(rtl.string());
   }
 
   void compare_with_best(const RunResult& result) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "testbench/campaign/store.h"
+#include "testbench/trace/failure.h"
 
 namespace phongpipe {
 
@@ -28,6 +29,8 @@ struct CampaignOptions {
   // Runs whose only fault is that values do not fit their registers count as refused: hardware
   // drawn at random often cannot represent a scene drawn at random.
   bool overflow_is_refusal = false;
+  // Where capsules of runs that diverge are kept, as IDENTITY.toml.
+  std::filesystem::path failures = kFailureFolder;
   bool fail_fast = false;  // no new runs after the first that failed or crashed
 };
 

@@ -96,6 +96,9 @@ class Session {
   Session(CampaignCommand& command, std::vector<std::string> keys)
       : command_(command), keys_(std::move(keys)) {
     parse_shard(command.shard, command.options);
+    if (command.database != Store::kInMemory) {
+      command.options.failures = command.database + "-failures";
+    }
   }
 
   // Sets the RTL of the runs, and does them. `late`: whether the time for new runs is over.

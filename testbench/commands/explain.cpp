@@ -1,13 +1,10 @@
 // phongpipe explain: the life of one pixel, and where its error comes from.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 
-#include "model/files/text_file.h"
 #include "model/scene/input_error.h"
-#include "testbench/accuracy/accuracy.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
 #include "testbench/reports/pixel_report.h"
@@ -21,30 +18,6 @@ struct Options {
   bool worst = false;
   HardwareOptions hardware;
 };
-
-Pixel parse_pixel(const std::string& text) {
-  const std::vector<std::string_view> parts = split(text, ',');
-  std::vector<int> numbers;
-  for (const std::string_view part : parts) {
-    const std::optional<long> number = parse_integer(part);
-    // Numbers beyond any image are told as such later.
-    constexpr long kFar = 1'000'000;
-    if (number) numbers.push_back(static_cast<int>(std::clamp(*number, -kFar, kFar)));
-  }
-  if (parts.size() != 2 || numbers.size() != 2) {
-    throw InputError(fmt::format(
-        "--pixel {}: give X,Y, two whole numbers counted from the top left pixel 0,0", text));
-  }
-  return {numbers[0], numbers[1]};
-}
-
-Pixel worst_pixel(const FrameSetup& frame, const ModelFrame& model) {
-  const Accuracy accuracy = measure_accuracy(frame, model, false);
-  if (accuracy.worst_pixels.empty()) return {};  // told as not covered
-  const std::size_t index = accuracy.worst_pixels.front().index;
-  const auto width = static_cast<std::size_t>(frame.width);
-  return {static_cast<int>(index % width), static_cast<int>(index / width)};
-}
 
 int explain(const Options& options) {
   if (options.pixel.empty() != options.worst) {

@@ -60,6 +60,9 @@ int run_program(int argc, char** argv) {
   add_sweep(application, run);
   add_regress(application, run);
   add_explain(application, run);
+  add_trace(application, run);
+  add_replay(application, run);
+  add_diff_traces(application, run);
   add_report(application, run);
   add_export(application, run);
   add_merge(application, run);

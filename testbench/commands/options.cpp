@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
 #include "testbench/cosim/metrics.h"
@@ -42,6 +44,22 @@ std::string metrics_help() {
     text += fmt::format("  {:<27} {:<6} {}{}\n", metric.name, metric.unit, metric.meaning, better);
   }
   return text;
+}
+
+Pixel parse_pixel(const std::string& text) {
+  const std::vector<std::string_view> parts = split(text, ',');
+  std::vector<int> numbers;
+  for (const std::string_view part : parts) {
+    const std::optional<long> number = parse_integer(part);
+    // Numbers beyond any image are told as such later.
+    constexpr long kFar = 1'000'000;
+    if (number) numbers.push_back(static_cast<int>(std::clamp(*number, -kFar, kFar)));
+  }
+  if (parts.size() != 2 || numbers.size() != 2) {
+    throw InputError(fmt::format(
+        "--pixel {}: give X,Y, two whole numbers counted from the top left pixel 0,0", text));
+  }
+  return {numbers[0], numbers[1]};
 }
 
 void write_output(const std::string& file, const std::string& text) {

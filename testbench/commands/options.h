@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/fixed/coverage.h"
 #include "model/shading/methods/power.h"
 #include "testbench/system/terminal.h"
 
@@ -24,13 +25,16 @@ constexpr int kCheckFailed = 1, kBadInput = 2, kToolFailed = 3;
 using Run = std::function<int()>;  // returns the exit status
 
 void add_compare(CLI::App& application, Run& run);
+void add_diff_traces(CLI::App& application, Run& run);
 void add_explain(CLI::App& application, Run& run);
 void add_export(CLI::App& application, Run& run);
 void add_merge(CLI::App& application, Run& run);
 void add_regress(CLI::App& application, Run& run);
 void add_render(CLI::App& application, Run& run);
+void add_replay(CLI::App& application, Run& run);
 void add_report(CLI::App& application, Run& run);
 void add_sweep(CLI::App& application, Run& run);
+void add_trace(CLI::App& application, Run& run);
 void add_verify(CLI::App& application, Run& run);
 
 // The texts of --help-settings and --help-metrics.
@@ -70,6 +74,9 @@ void add_choice(CLI::App& command, const std::string& flag, Value& value,
 
 // A finite number above 0.
 CLI::Validator positive_number();
+
+// X,Y of --pixel. Throws InputError for anything else.
+Pixel parse_pixel(const std::string& text);
 
 // Writes a result to a file, to standard output for "-", or nowhere for an empty name.
 void write_output(const std::string& file, const std::string& text);

@@ -7,9 +7,9 @@
 #include "model/files/text_file.h"
 #include "model/fixed/model_frame.h"
 #include "model/scene/input_error.h"
-#include "testbench/accuracy/accuracy.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
+#include "testbench/cosim/run.h"
 #include "testbench/system/output_file.h"
 #include "testbench/system/terminal.h"
 #include "testbench/trace/pixel_story.h"
@@ -48,15 +48,13 @@ TraceTarget target_of(const Options& options, const PreparedFrame& frame) {
   if (options.worst || !options.pixels.empty()) model = run_model(frame.setup);
   for (const std::string& text : options.pixels) {
     const auto [x, y] = parse_pixel(text);
-    require_covered(frame, *model, x, y);
+    require_covered(frame, model->framebuffer, x, y);
     target.pixels.push_back({x, y});
   }
   if (options.worst) {
-    const Accuracy accuracy = measure_accuracy(frame.setup, *model, false);
-    const auto width = static_cast<std::size_t>(frame.setup.width);
-    const std::size_t index = accuracy.worst_pixels.at(0).index;
-    target.pixels.push_back(
-        {static_cast<int>(index % width), static_cast<int>(index / width)});
+    const auto [x, y] = worst_pixel(frame.setup, *model);
+    require_covered(frame, model->framebuffer, x, y);
+    target.pixels.push_back({x, y});
   }
   if (options.triangle >= 0) target.triangle = static_cast<std::uint32_t>(options.triangle);
   if (options.span >= 0) target.span = static_cast<std::uint64_t>(options.span);
@@ -73,9 +71,9 @@ TraceTarget target_of(const Options& options, const PreparedFrame& frame) {
 }
 
 std::string size_text(double bytes) {
-  return bytes < 1e6 ? fmt::format("{:.0f} kB", bytes / 1e3)
-                     : bytes < 1e9 ? fmt::format("{:.1f} MB", bytes / 1e6)
-                                   : fmt::format("{:.1f} GB", bytes / 1e9);
+  return bytes < 1e6   ? fmt::format("{:.0f} kB", bytes / 1e3)
+         : bytes < 1e9 ? fmt::format("{:.1f} MB", bytes / 1e6)
+                       : fmt::format("{:.1f} GB", bytes / 1e9);
 }
 
 std::int64_t cycles_in(const std::vector<CycleWindow>& windows) {
@@ -92,44 +90,43 @@ void announce_size(const Options& options, const PreparedFrame& frame, const Har
   constexpr double kAskFrom = 1e9;
   const std::int64_t cycles = cycles_in(windows);
   if (cycles < kLong) return;
-  const CycleWindow& longest = *std::max_element(
-      windows.begin(), windows.end(), [](const CycleWindow& a, const CycleWindow& b) {
-        return a.last - a.first < b.last - b.first;
-      });
+  const CycleWindow& longest = *std::max_element(windows.begin(), windows.end(),
+                                                 [](const CycleWindow& a, const CycleWindow& b) {
+                                                   return a.last - a.first < b.last - b.first;
+                                                 });
   const std::int64_t middle = (longest.first + longest.last) / 2;
   const fs::path piece = options.file.string() + ".piece" + options.file.extension().string();
   record_trace(frame, hardware, library, {{middle, middle + kPiece - 1}}, target, options.trace,
                piece);
   std::error_code none;
-  const auto bytes = static_cast<double>(fs::file_size(piece, none)) *
-                     static_cast<double>(cycles) / kPiece;
+  const auto bytes =
+      static_cast<double>(fs::file_size(piece, none)) * static_cast<double>(cycles) / kPiece;
   fs::remove(piece, none);
   tell(fmt::format("{} cycles: about {}", cycles, size_text(bytes)));
   if (bytes > kAskFrom && !options.yes) {
-    throw InputError(fmt::format("{}: the trace takes about {}; --yes writes it, or choose a window "
-                                 "with --cycles A:B",
-                                 printable(options.file.string()), size_text(bytes)));
+    throw InputError(
+        fmt::format("{}: the trace takes about {}; --yes writes it, or choose a window "
+                    "with --cycles A:B",
+                    printable(options.file.string()), size_text(bytes)));
   }
 }
 
 int trace(const Options& options) {
-  const Hardware hardware =
-      load_hardware(options.hardware.hardware, options.hardware.overrides);
+  const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
   const PreparedFrame frame(load_named_scene(options.scene, options.hardware.overrides),
                             hardware.formats, hardware.setup);
   fs::path gtkwave = options.file, surfer = options.file;
   gtkwave.replace_extension(".gtkw");
   surfer.replace_extension(".sucl");
   if (options.file.extension() != ".fst" && options.file.extension() != ".vcd") {
-    throw InputError(fmt::format("{}: waveforms are written as .fst or .vcd",
-                                 printable(options.file.string())));
+    throw InputError(
+        fmt::format("{}: waveforms are written as .fst or .vcd", printable(options.file.string())));
   }
   for (const fs::path& file : {options.file, gtkwave, surfer}) check_writable(file);
 
   Progress progress;
   const TraceTarget target = target_of(options, frame);
-  const std::vector<CycleWindow> windows =
-      find_windows(frame, hardware, target, options.trace);
+  const std::vector<CycleWindow> windows = find_windows(frame, hardware, target, options.trace);
   RtlBuildOptions build;
   build.build = RtlBuild::signals;
   build.sources = options.rtl_sources;
@@ -154,10 +151,10 @@ int trace(const Options& options) {
     shown.resize(kMostWindows);
     shown.emplace_back("…");
   }
-  std::string text = fmt::format(
-      "{}  {} cycles of {}, {} signals, {}\n", printable(options.file.string()),
-      cycles_in(windows), recorded.frame_cycles, recorded.variables.size(),
-      size_text(static_cast<double>(fs::file_size(options.file))));
+  std::string text =
+      fmt::format("{}  {} cycles of {}, {} signals, {}\n", printable(options.file.string()),
+                  cycles_in(windows), recorded.frame_cycles, recorded.variables.size(),
+                  size_text(static_cast<double>(fs::file_size(options.file))));
   text += fmt::format("  windows  cycles {} at {:.2f} ns a cycle\n", fmt::join(shown, ", "),
                       static_cast<double>(recorded.period_ps) / 1000);
   for (const TraceMarker& marker : recorded.markers) {
@@ -183,7 +180,8 @@ void add_trace(CLI::App& application, Run& run) {
   command->add_option("-o,--output", options->file, "The trace; .gtkw and .sucl lie beside it")
       ->required()
       ->type_name("FILE.fst|FILE.vcd");
-  command->add_option("--pixel", options->pixels, "Whenever this pixel is shaded; may be given again")
+  command
+      ->add_option("--pixel", options->pixels, "Whenever this pixel is shaded; may be given again")
       ->type_name("X,Y")
       ->allow_extra_args(false);
   command->add_flag("--worst", options->worst, "The pixel with the largest error");
@@ -212,7 +210,8 @@ void add_trace(CLI::App& application, Run& run) {
   command->add_flag("--rtl-drives", options->trace.rtl_drives,
                     "Let the RTL answer to the other modules, as verify does, and not SystemC");
   options->hardware.add_to(*command);
-  command->footer("Example: phongpipe trace pawn --worst -o worst.fst && gtkwave worst.fst worst.gtkw\n");
+  command->footer(
+      "Example: phongpipe trace pawn --worst -o worst.fst && gtkwave worst.fst worst.gtkw\n");
   command->callback([options, &run] { run = [options] { return trace(*options); }; });
 }
 

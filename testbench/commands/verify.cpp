@@ -13,6 +13,7 @@
 #include "testbench/reports/verification_report.h"
 #include "testbench/system/output_file.h"
 #include "testbench/system/terminal.h"
+#include "testbench/trace/failure.h"
 
 namespace phongpipe {
 namespace {
@@ -79,12 +80,14 @@ class Verifier {
         show_step("recording the timeline");
         write_timeline(record_timeline(prepared, hardware_, options_.verification), scene.source);
       }
+      if (!result.agrees()) show_step("tracing what differs");
+      const FailureFiles failure = write_failure(prepared, result, failure_folder(), name);
       progress_.clear();
-      show(scene, result, name);
+      show(scene, result, name, failure);
       if (!options_.pictures.empty()) {
         page_.add(request_of(scene), result, picture_files(options_.pictures, name));
       }
-      results_.push_back(report_json(result));
+      results_.push_back(report_json(result, failure.capsule.string()));
       passed_ += result.passed() ? 1 : 0;
     } catch (const std::exception& error) {
       progress_.clear();
@@ -103,7 +106,8 @@ class Verifier {
     write_text(timeline_picture_file(), timeline_picture(timeline, scene));
   }
 
-  void show(const Scene& scene, const VerificationResult& result, const std::string& name) const {
+  void show(const Scene& scene, const VerificationResult& result, const std::string& name,
+            const FailureFiles& failure) const {
     ReportStyle style;
     style.color = color_wanted();
     style.verbose = options_.verbose;
@@ -121,6 +125,9 @@ class Verifier {
     if (!options_.timeline.empty()) {
       style.more.push_back(printable(options_.timeline.string()));
       style.more.push_back(printable(timeline_picture_file().string()));
+    }
+    for (const std::filesystem::path& file : {failure.trace, failure.capsule}) {
+      if (!file.empty()) style.more.push_back(printable(file.string()));
     }
     if (options_.json == "-") return;
     print_or_throw(options_.scenes.size() == 1 ? report_text(result, style)
@@ -142,6 +149,9 @@ class Verifier {
     phongpipe::check_outputs(options_.pictures, files);
   }
 
+  std::filesystem::path failure_folder() const {
+    return options_.pictures.empty() ? std::filesystem::path(kFailureFolder) : options_.pictures;
+  }
   std::filesystem::path page_file() const { return options_.pictures / "verify.html"; }
   std::filesystem::path timeline_picture_file() const {
     return std::filesystem::path(options_.timeline).replace_extension(".svg");

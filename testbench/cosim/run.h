@@ -79,13 +79,14 @@ struct RunResult {
   VerifiedBy verified_by = VerifiedBy::nothing;
   std::string configuration_hash;    // of the resolved hardware; empty without a result
   std::vector<MetricValue> metrics;  // in the order of metrics(); empty without a result
+  std::string capsule;               // text that shows a divergence again, or empty
 
   static constexpr auto fields() {
     using R = RunResult;
     return std::make_tuple(field("outcome", &R::outcome), field("message", &R::message),
                            field("bucket", &R::bucket), field("verified_by", &R::verified_by),
                            field("configuration_hash", &R::configuration_hash),
-                           field("metrics", &R::metrics));
+                           field("metrics", &R::metrics), field("capsule", &R::capsule));
   }
 };
 

@@ -38,8 +38,7 @@ ParsedValue parse_value(const HardwareSetting& setting, std::string_view text) {
   return {{}, fmt::format("{} is one of {}", setting.key, fmt::join(setting.choices, ", "))};
 }
 
-void read_file(Hardware& hardware, const std::filesystem::path& file, std::string& technology) {
-  const TomlTable table = TomlTable::read_file(file);
+void read_settings(Hardware& hardware, const TomlTable& table, std::string& technology) {
   technology = table.text("technology", technology);
   std::string_view section;
   std::optional<TomlTable> part;
@@ -132,9 +131,18 @@ Hardware load_hardware(const std::string& name, const std::vector<std::string>& 
   std::string technology = "ice40-hx8k";
   const auto file = find_named(name, installation().hardware / "presets", "preset");
   hardware.name = file.stem().string();
-  read_file(hardware, file, technology);
+  read_settings(hardware, TomlTable::read_file(file), technology);
   hardware.technology = load_technology(technology);
   return override_hardware(std::move(hardware), overrides);
+}
+
+Hardware parse_hardware(const std::string& text, const std::filesystem::path& file) {
+  Hardware hardware;
+  std::string technology;
+  hardware.name = file.stem().string();
+  read_settings(hardware, TomlTable::read_text(text, file), technology);
+  hardware.technology = load_technology(technology);
+  return hardware;
 }
 
 Hardware override_hardware(Hardware hardware, const std::vector<std::string>& overrides) {

@@ -2,6 +2,7 @@
 // --set.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,9 @@ const Settings<Hardware>& hardware_settings();
 // `name`: a preset or a file. `overrides`: key=value, with or without the section, or
 // technology=card; keys that begin with kSceneSection are left to the scene. Throws InputError.
 Hardware load_hardware(const std::string& name, const std::vector<std::string>& overrides);
+// All settings and the technology from the text of a hardware file; `file` is what messages call
+// it.
+Hardware parse_hardware(const std::string& text, const std::filesystem::path& file);
 Hardware override_hardware(Hardware hardware, const std::vector<std::string>& overrides);
 
 // Keys of --set that change the scene: scene.light.0.color=…

@@ -310,7 +310,35 @@ std::string report_text(const VerificationResult& r, const ReportStyle& style) {
   return page.text();
 }
 
-ordered_json report_json(const VerificationResult& r) {
+// Where implementations part: null if they do not.
+ordered_json divergence_json(const VerificationResult& r, const std::string& capsule) {
+  ordered_json json;
+  const ImplementationResult* found = &r.systemc;
+  if (!found->first_divergence && r.rtl) found = &*r.rtl;
+  if (found->first_divergence) {
+    const Divergence& d = *found->first_divergence;
+    json = {{"triangle", d.triangle},
+            {"x", d.model.x},
+            {"y", d.model.y},
+            {"cycle", d.cycle},
+            {"block", "pixel_datapath"},
+            {"signal", "pixel_color"},
+            {"model", d.model.color},
+            {"other", d.found.color}};
+  }
+  if (found->signal_divergence) {
+    const SignalDivergence& s = *found->signal_divergence;
+    json["cycle"] = s.cycle;
+    json["block"] = s.block;
+    json["signal"] = s.signal;
+    json["model"] = s.model;
+    json["other"] = s.other;
+  }
+  if (!json.is_null()) json["capsule"] = capsule.empty() ? ordered_json() : ordered_json(capsule);
+  return json;
+}
+
+ordered_json report_json(const VerificationResult& r, const std::string& capsule) {
   ordered_json json = {{"scene", r.scene},
                        {"passed", r.passed()},
                        {"configuration", configuration_json(r)},
@@ -333,6 +361,7 @@ ordered_json report_json(const VerificationResult& r) {
     json["worst_pixels"].push_back(
         {{"x", pixel.index % width}, {"y", pixel.index / width}, {"error_lsb", pixel.error_lsb}});
   }
+  json["first_divergence"] = divergence_json(r, capsule);
   json["effects"] = effects_json(r);
   const auto add = [&json](const char* name, const ImplementationResult& found) {
     ordered_json& entry = json["implementations"][name];

@@ -24,7 +24,9 @@ struct ReportStyle {
 std::string report_text(const VerificationResult& result, const ReportStyle& style);
 std::string report_line(const VerificationResult& result, const ReportStyle& style);
 
-nlohmann::ordered_json report_json(const VerificationResult& result);
+// `capsule`: file that shows its divergence again, or empty.
+nlohmann::ordered_json report_json(const VerificationResult& result,
+                                   const std::string& capsule = {});
 
 // name-result.png, name-exact.png and name-error.png.
 std::array<std::filesystem::path, 3> picture_files(const std::filesystem::path& folder,

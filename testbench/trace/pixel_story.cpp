@@ -10,6 +10,7 @@
 #include "model/scene/input_error.h"
 #include "model/shading/screen_interpolator.h"
 #include "sim/pipeline.h"
+#include "testbench/accuracy/accuracy.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
@@ -17,35 +18,6 @@
 
 namespace phongpipe {
 namespace {
-
-// Throws InputError that says which pixel would do.
-void check_pixel(const PreparedFrame& frame, const Framebuffer& framebuffer, int x, int y) {
-  const int width = frame.setup.width, height = frame.setup.height;
-  const auto refuse = [&](const std::string& reason) {
-    throw InputError(frame.scene().source, 0, fmt::format("pixel {},{} {}", x, y, reason));
-  };
-  if (x < 0 || x >= width || y < 0 || y >= height) {
-    refuse(fmt::format("is outside the image; x goes from 0 to {}, y from 0 to {}", width - 1,
-                       height - 1));
-  }
-  if (framebuffer.covered(framebuffer.index_of(x, y))) return;
-  std::int64_t least = std::numeric_limits<std::int64_t>::max();
-  std::size_t nearest = 0;
-  framebuffer.for_each_covered([&](std::size_t index, std::uint32_t) {
-    const std::int64_t dx = static_cast<std::int64_t>(index) % width - x;
-    const std::int64_t dy = static_cast<std::int64_t>(index) / width - y;
-    if (dx * dx + dy * dy >= least) return;
-    least = dx * dx + dy * dy;
-    nearest = index;
-  });
-  if (least == std::numeric_limits<std::int64_t>::max()) {
-    refuse("is not covered, nor is any other; look at the camera and the objects");
-  }
-  refuse(fmt::format("is not covered; the nearest that is: {},{}, of triangle {}",
-                     nearest % static_cast<std::size_t>(width),
-                     nearest / static_cast<std::size_t>(width),
-                     frame.subdivision().whole[framebuffer.owner(nearest)]));
-}
 
 // Runs a span alone and without stalls: a pixel is one clock in each stage.
 SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
@@ -304,9 +276,45 @@ std::vector<std::int64_t> exit_cycles(const FrameSetup& frame, const PixelStory&
 
 }  // namespace
 
+void require_covered(const PreparedFrame& frame, const Framebuffer& framebuffer, int x, int y) {
+  const int width = frame.setup.width, height = frame.setup.height;
+  const auto refuse = [&](const std::string& reason) {
+    throw InputError(frame.scene().source, 0, fmt::format("pixel {},{} {}", x, y, reason));
+  };
+  if (x < 0 || x >= width || y < 0 || y >= height) {
+    refuse(fmt::format("is outside the image; x goes from 0 to {}, y from 0 to {}", width - 1,
+                       height - 1));
+  }
+  if (framebuffer.covered(framebuffer.index_of(x, y))) return;
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  std::size_t nearest = 0;
+  framebuffer.for_each_covered([&](std::size_t index, std::uint32_t) {
+    const std::int64_t dx = static_cast<std::int64_t>(index) % width - x;
+    const std::int64_t dy = static_cast<std::int64_t>(index) / width - y;
+    if (dx * dx + dy * dy >= least) return;
+    least = dx * dx + dy * dy;
+    nearest = index;
+  });
+  if (least == std::numeric_limits<std::int64_t>::max()) {
+    refuse("is not covered, nor is any other; look at the camera and the objects");
+  }
+  refuse(fmt::format("is not covered; the nearest that is: {},{}, of triangle {}",
+                     nearest % static_cast<std::size_t>(width),
+                     nearest / static_cast<std::size_t>(width),
+                     frame.subdivision().whole[framebuffer.owner(nearest)]));
+}
+
+Pixel worst_pixel(const FrameSetup& frame, const ModelFrame& model) {
+  const Accuracy accuracy = measure_accuracy(frame, model, false);
+  if (accuracy.worst_pixels.empty()) return {};  // told as not covered
+  const std::size_t index = accuracy.worst_pixels.front().index;
+  const auto width = static_cast<std::size_t>(frame.width);
+  return {static_cast<int>(index % width), static_cast<int>(index / width)};
+}
+
 PixelStory tell_story(const PreparedFrame& frame, const Hardware& hardware, const ModelFrame& model,
                       int x, int y) {
-  check_pixel(frame, model.framebuffer, x, y);
+  require_covered(frame, model.framebuffer, x, y);
   return StoryTeller(frame, model, x, y).tell(hardware);
 }
 

@@ -99,6 +99,13 @@ struct PixelStory {
   std::vector<Neighbour> neighbours;
 };
 
+// Throws InputError, which says what pixel would do, if this one is outside the image or not
+// covered.
+void require_covered(const PreparedFrame& frame, const Framebuffer& framebuffer, int x, int y);
+
+// The pixel with the largest error; 0,0 if none is covered.
+Pixel worst_pixel(const FrameSetup& frame, const ModelFrame& model);
+
 // Throws InputError if the pixel is outside the image or not covered, std::logic_error if the
 // colours of its visits do not give the colour in the model's picture.
 PixelStory tell_story(const PreparedFrame& frame, const Hardware& hardware, const ModelFrame& model,

@@ -56,16 +56,17 @@ std::string gtkwave_view(const RecordedTrace& trace, const CycleWindow& shown,
   }
   text += "\n";
   for (std::size_t i = 1; i < std::min(kMarkers, trace.markers.size()); ++i) {
-    text += fmt::format("[markername] {}{}\n", static_cast<char>('A' + i - 1),
-                        trace.markers[i].name);
+    text +=
+        fmt::format("[markername] {}{}\n", static_cast<char>('A' + i - 1), trace.markers[i].name);
   }
   for_each_shown(
-      trace, [&](const std::string& block) { text += fmt::format("@{:x}\n-{}\n", kHeading, block); },
+      trace,
+      [&](const std::string& block) { text += fmt::format("@{:x}\n-{}\n", kHeading, block); },
       [&](const WaveVariable& variable) {
         if (variable.fraction_bits > 0) {
           const int sign = variable.is_signed ? kSigned : 0;
-          text += fmt::format("@{:x}\n[fpshift_count] {}\n",
-                              kFixedPoint | kDecimal | kRight | sign, variable.fraction_bits);
+          text += fmt::format("@{:x}\n[fpshift_count] {}\n", kFixedPoint | kDecimal | kRight | sign,
+                              variable.fraction_bits);
         } else if (variable.width == 1) {
           text += fmt::format("@{:x}\n", kBits | kRight);
         } else {

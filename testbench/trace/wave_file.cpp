@@ -24,8 +24,8 @@ void change_scope(const std::string& from, const std::string& to, const Begin& b
                   const End& end) {
   const std::vector<std::string_view> old_parts = split(from, '.'), new_parts = split(to, '.');
   std::size_t same = 0;
-  while (same < old_parts.size() && same < new_parts.size() &&
-         old_parts[same] == new_parts[same] && !from.empty()) {
+  while (same < old_parts.size() && same < new_parts.size() && old_parts[same] == new_parts[same] &&
+         !from.empty()) {
     ++same;
   }
   if (!from.empty()) {
@@ -42,7 +42,8 @@ class FstWriter : public WaveWriter {
       : file_(file), partial_(file.string() + fmt::format(".partial-{}", getpid())) {
     check_writable(file);
     fst_ = fstWriterCreate(partial_.c_str(), 1);
-    if (fst_ == nullptr) throw InputError(fmt::format("{}: cannot be written", printable(file.string())));
+    if (fst_ == nullptr)
+      throw InputError(fmt::format("{}: cannot be written", printable(file.string())));
     fstWriterSetPackType(fst_, FST_WR_PT_LZ4);
     fstWriterSetTimescale(fst_, -12);
     fstWriterSetVersion(fst_, "phongpipe");
@@ -228,8 +229,8 @@ class VcdParser {
     std::size_t digits = 0;
     while (digits < scale.size() && scale[digits] >= '0' && scale[digits] <= '9') ++digits;
     const auto number = parse_number(scale.substr(0, digits));
-    const std::pair<const char*, double> units[] = {{"s", 1e12},  {"ms", 1e9}, {"us", 1e6},
-                                                    {"ns", 1e3},  {"ps", 1},   {"fs", 1e-3}};
+    const std::pair<const char*, double> units[] = {{"s", 1e12}, {"ms", 1e9}, {"us", 1e6},
+                                                    {"ns", 1e3}, {"ps", 1},   {"fs", 1e-3}};
     for (const auto& [unit, ps] : units) {
       if (number && scale.substr(digits) == unit) {
         ps_ = *number * ps;
@@ -249,8 +250,7 @@ class VcdParser {
     const auto bits = parse_integer(width);
     if (!bits || *bits < 1 || *bits > 1'000'000) return false;
     places_[std::string(code)].push_back(reader_.variables.size());
-    reader_.variables.push_back(
-        variable_of(scope, name, static_cast<int>(*bits), type == "real"));
+    reader_.variables.push_back(variable_of(scope, name, static_cast<int>(*bits), type == "real"));
     return true;
   }
   bool read_change(std::string_view word) {

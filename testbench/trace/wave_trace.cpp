@@ -19,6 +19,19 @@
 #include "testbench/system/terminal.h"
 
 namespace phongpipe {
+
+// Sent by the process that looks for them.
+struct FoundWindows {
+  std::vector<CycleWindow> windows;
+  std::int64_t frame_cycles = 0, last_span = 0;
+
+  static constexpr auto fields() {
+    using F = FoundWindows;
+    return std::make_tuple(field("windows", &F::windows), field("frame_cycles", &F::frame_cycles),
+                           field("last_span", &F::last_span));
+  }
+};
+
 namespace {
 
 constexpr const char* kRoot = "phongpipe";
@@ -53,7 +66,11 @@ class Probes {
  public:
   Probes(const DatapathConfiguration& configuration, const DatapathRegisters& systemc,
          const RtlDatapath& rtl, const Clock& clock, const ActivityRecorder& activity)
-      : configuration_(configuration), systemc_(systemc), clock_(clock), activity_(activity), inside_(rtl) {
+      : configuration_(configuration),
+        systemc_(systemc),
+        clock_(clock),
+        activity_(activity),
+        inside_(rtl) {
     add_word(kRoot, "cycle", 32, 0, [this] { return clock_.cycle; });
     add_registers();
     add_rtl();
@@ -407,17 +424,6 @@ class WindowFinder {
   std::vector<CycleWindow> windows_;
 };
 
-struct FoundWindows {
-  std::vector<CycleWindow> windows;
-  std::int64_t frame_cycles = 0, last_span = 0;
-
-  static constexpr auto fields() {
-    using F = FoundWindows;
-    return std::make_tuple(field("windows", &F::windows), field("frame_cycles", &F::frame_cycles),
-                           field("last_span", &F::last_span));
-  }
-};
-
 [[noreturn]] void refuse_target(const PreparedFrame& frame, const TraceTarget& target,
                                 const FoundWindows& found) {
   const std::string& scene = frame.scene().source;
@@ -427,17 +433,16 @@ struct FoundWindows {
                                  found.frame_cycles - 1));
   }
   if (target.span) {
-    throw InputError(
-        fmt::format("{}: span {}: the frame has the spans 0 to {}", scene, *target.span,
-                    found.last_span));
+    throw InputError(fmt::format("{}: span {}: the frame has the spans 0 to {}", scene,
+                                 *target.span, found.last_span));
   }
   const std::vector<std::uint32_t>& whole = frame.subdivision().whole;
   const std::uint32_t last = *std::max_element(whole.begin(), whole.end());
-  throw InputError(*target.triangle > last
-                       ? fmt::format("{}: triangle {}: the scene has the triangles 0 to {}", scene,
-                                     *target.triangle, last)
-                       : fmt::format("{}: triangle {}: no pixel of it is shaded", scene,
-                                     *target.triangle));
+  throw InputError(
+      *target.triangle > last
+          ? fmt::format("{}: triangle {}: the scene has the triangles 0 to {}", scene,
+                        *target.triangle, last)
+          : fmt::format("{}: triangle {}: no pixel of it is shaded", scene, *target.triangle));
 }
 
 }  // namespace
@@ -463,8 +468,8 @@ std::vector<CycleWindow> find_windows(const PreparedFrame& frame, const Hardware
   if (target.frame) found.windows.push_back({0, cycles - 1});
   if (target.cycles && target.cycles->first <= target.cycles->last && target.cycles->first >= 0 &&
       target.cycles->last < cycles) {
-    found.windows.push_back({target.cycles->first - target.margin_cycles,
-                             target.cycles->last + target.margin_cycles});
+    found.windows.push_back(
+        {target.cycles->first - target.margin_cycles, target.cycles->last + target.margin_cycles});
   }
   if (found.windows.empty()) refuse_target(frame, target, found);
   return joined(std::move(found.windows), cycles);
@@ -490,16 +495,15 @@ RecordedTrace record_trace(const PreparedFrame& frame, const Hardware& hardware,
     const SimulationResult result = simulate(frame.setup, hardware.pipeline, simulation);
     datapath.close();
     const Fingerprint fingerprint = hash.fingerprint();
-    RecordedTrace trace;
+    TraceSummary trace;
     trace.markers = datapath.markers();
     trace.period_ps = period;
     trace.frame_cycles = result.frame_cycles;
     trace.stream_hash = fingerprint.stream_hash ^ fingerprint.cycles_hash;
     return to_bytes(trace);
   });
-  RecordedTrace trace = from_bytes<RecordedTrace>(child.get());
-  trace.variables = trace_variables(frame.setup.configuration, library);
-  return trace;
+  return {from_bytes<TraceSummary>(child.get()),
+          trace_variables(frame.setup.configuration, library)};
 }
 
 std::vector<WaveVariable> trace_variables(const DatapathConfiguration& configuration,

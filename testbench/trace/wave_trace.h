@@ -57,19 +57,21 @@ struct TraceMarker {
 std::vector<CycleWindow> find_windows(const PreparedFrame& frame, const Hardware& hardware,
                                       const TraceTarget& target, const TraceOptions& options);
 
-struct RecordedTrace {
-  std::vector<WaveVariable> variables;
+struct TraceSummary {
   std::vector<TraceMarker> markers;  // entrance and exit of the target's pixels
   std::uint64_t period_ps = 0;
   std::int64_t frame_cycles = 0;
   std::uint64_t stream_hash = 0;  // of all pixels of the frame and their cycles
 
   static constexpr auto fields() {
-    using T = RecordedTrace;
+    using T = TraceSummary;
     return std::make_tuple(field("markers", &T::markers), field("period_ps", &T::period_ps),
                            field("frame_cycles", &T::frame_cycles),
                            field("stream_hash", &T::stream_hash));
   }
+};
+struct RecordedTrace : TraceSummary {
+  std::vector<WaveVariable> variables;  // in the order of the file
 };
 
 // Simulates the frame clock by clock in a child process, with SystemC and RTL in parallel, and

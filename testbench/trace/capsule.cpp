@@ -1,0 +1,128 @@
+#include "testbench/trace/capsule.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <sstream>
+
+#include "model/files/scene_file.h"
+#include "model/files/scene_writer.h"
+#include "model/files/text_file.h"
+#include "model/files/toml_reader.h"
+#include "model/scene/input_error.h"
+#include "testbench/cosim/run.h"
+#include "testbench/rtl/rtl_library.h"
+#include "testbench/system/fnv_hash.h"
+#include "testbench/system/terminal.h"
+
+namespace phongpipe {
+namespace {
+
+constexpr std::string_view kDigest = "digest = ";
+
+std::string digest_of(std::string_view text) {
+  FnvHash hash;
+  hash.add(text);
+  return fmt::format("{:016x}", hash.value());
+}
+
+// Settings of the hardware as a hardware file has them.
+std::string hardware_toml(const Hardware& hardware) {
+  toml::table root;
+  for (const Setting<Hardware>& setting : hardware_settings()) {
+    const auto [place, added] = root.insert(setting.section, toml::table{});
+    toml::table& section = *place->second.as_table();
+    const std::string value = setting.value(hardware);
+    if (setting.choices.empty()) {
+      section.insert(setting.key, setting.get(hardware));
+    } else {
+      section.insert(setting.key, value);
+    }
+  }
+  std::ostringstream text;
+  text << root;
+  return fmt::format("technology = \"{}\"\n{}\n", hardware.technology.name, text.str());
+}
+
+}  // namespace
+
+std::string divergence_text(const VerificationResult& r) {
+  if (r.rtl && r.rtl->signal_divergence) {
+    const SignalDivergence& s = *r.rtl->signal_divergence;
+    return fmt::format("{}: model {}, rtl {} in cycle {}", s.name(), hex_text(s.model, s.width),
+                       hex_text(s.other, s.width), s.cycle);
+  }
+  const auto pixel = [](const char* name, const ImplementationResult& found) {
+    if (!found.first_divergence) return std::string();
+    const Divergence& d = *found.first_divergence;
+    return fmt::format("{}: x {}, y {}: model {:#x}, found {:#x} in cycle {}", name, d.model.x,
+                       d.model.y, d.model.color, d.found.color, d.cycle);
+  };
+  std::string text = pixel("SystemC", r.systemc);
+  if (text.empty() && r.rtl) text = pixel("RTL", *r.rtl);
+  return text;
+}
+
+std::string capsule_text(const Scene& scene, const VerificationResult& result) {
+  const VerificationOptions& options = result.options;
+  toml::table chosen;
+  for (const RunOption& option : run_options()) chosen.insert(option.name, option.get(options));
+  const toml::table root{{"version", PHONGPIPE_VERSION},
+                         {"arithmetic", kArithmeticVersion},
+                         {"name", scene.source},
+                         {"rtl_hash", fmt::format("{:016x}", rtl_hash(options.rtl_sources))},
+                         {"found", divergence_text(result)},
+                         {"options", chosen},
+                         {"hardware", hardware_toml(result.hardware)},
+                         {"scene", scene_toml(scene)}};
+  std::ostringstream text;
+  text << root << "\n";
+  return fmt::format(
+      "# A divergence found by phongpipe; `phongpipe replay` shows it again.\n{}\"{}\"\n{}",
+      kDigest, digest_of(text.str()), text.str());
+}
+
+Capsule read_capsule(const std::filesystem::path& file, bool anyway) {
+  const std::string text = read_whole_file(file);
+  const std::size_t at = text.find(kDigest);
+  const std::size_t begin = text.find('\n', at);
+  if (at == std::string::npos || begin == std::string::npos) {
+    throw InputError(
+        fmt::format("{}: no capsule, which `phongpipe verify` writes where RTL or "
+                    "SystemC differs from the model",
+                    printable(file.string())));
+  }
+  const bool whole = text.find(digest_of(std::string_view(text).substr(begin + 1)), at) < begin;
+  if (!whole && !anyway) {
+    throw InputError(
+        fmt::format("{}: changed after it was written; --anyway replays what it says now",
+                    printable(file.string())));
+  }
+  const TomlTable root = TomlTable::read_text(text, file);
+  Capsule capsule;
+  root.text("digest");
+  capsule.version = root.text("version");
+  const int arithmetic = root.integer("arithmetic", 0, 1'000'000);
+  capsule.name = root.text("name");
+  capsule.found = root.text("found");
+  const std::string hash = root.text("rtl_hash");
+  const TomlTable options = root.table("options");
+  for (const RunOption& option : run_options()) {
+    option.put(capsule.options, options.text(option.name));
+  }
+  options.finish();
+  capsule.hardware = parse_hardware(root.text("hardware"), file);
+  capsule.scene = parse_scene(root.text("scene"), file);
+  root.finish();
+  capsule.scene.source = capsule.name;
+  std::istringstream digits(hash);
+  digits >> std::hex >> capsule.rtl_hash;
+  if (arithmetic != kArithmeticVersion && !anyway) {
+    throw InputError(fmt::format(
+        "{}: written by a phongpipe with other arithmetic ({}); --anyway replays it with this one",
+        printable(file.string()), printable(capsule.version)));
+  }
+  return capsule;
+}
+
+}  // namespace phongpipe

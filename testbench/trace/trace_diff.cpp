@@ -1,0 +1,311 @@
+#include "testbench/trace/trace_diff.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "model/scene/input_error.h"
+#include "sim/datapath_registers.h"
+#include "testbench/system/terminal.h"
+#include "testbench/trace/wave_file.h"
+
+namespace phongpipe {
+namespace {
+
+constexpr std::string_view kDatapath = "pixel_datapath";
+constexpr int kStages = static_cast<int>(DatapathStage::fade) + 1;
+
+// Names of registers by their full name, with the stage that they belong to: those of the table of
+// signals, for the datapath with everything, and those that they are packed in.
+const std::map<std::string, DatapathStage>& stages_of_signals() {
+  static const std::map<std::string, DatapathStage> all = [] {
+    std::map<std::string, DatapathStage> stages;
+    DatapathConfiguration everything;
+    everything.channels = 3;
+    everything.diffuse = everything.specular = everything.depth_cue = true;
+    everything.gate = GateSource::series;
+    for (const DatapathSignal& signal : datapath_signals(everything)) {
+      stages.emplace(signal.full_name(), signal.stage);
+      if (!signal.packed.empty()) {
+        stages.emplace(fmt::format("{}.{}", kDatapath, signal.packed), signal.stage);
+      }
+    }
+    return stages;
+  }();
+  return all;
+}
+
+// What a trace shows of one pixel.
+struct TracedPixel {
+  int x = 0, y = 0;
+  std::array<std::uint64_t, kStages> ps{};     // when each stage took it
+  std::map<std::string, std::string> signals;  // bits, by full name
+  std::optional<int> entered, left;            // clocks
+};
+
+// Follows pixels through one pixel_datapath of a file, clock by clock.
+class Follower {
+ public:
+  explicit Follower(std::string scope) : scope_(std::move(scope)) {}
+
+  const std::string& scope() const { return scope_; }
+  void add(const std::string& name, std::size_t variable, int width) {
+    widths_[name] = width;
+    variables_[name] = variable;
+  }
+  const std::map<std::string, std::size_t>& variables() const { return variables_; }
+  const std::vector<TracedPixel>& pixels() const { return pixels_; }
+  bool is_clock(std::size_t variable) const {
+    const auto found = variables_.find(fmt::format("{}.clk", kDatapath));
+    return found != variables_.end() && found->second == variable;
+  }
+
+  // Values as they are before a rising edge of the clock.
+  void edge(std::uint64_t ps, const std::vector<std::string>& values) {
+    std::array<bool, kStages> valid{};
+    for (int stage = 0; stage < kStages; ++stage) {
+      valid[index(stage)] = bit(values, prefix(stage) + "_valid");
+    }
+    const bool has_fade = variables_.count(prefix(kStages - 1) + "_valid") != 0;
+    const bool taken = bit(values, fmt::format("{}.pixel_ready", kDatapath));
+    for (int stage = kStages - 1; stage >= 0; --stage) {  // in the order of the pixels
+      if (!valid[index(stage)]) {
+        held_[index(stage)].reset();
+      } else {
+        look(stage, ps, values);
+      }
+    }
+    const int last = has_fade ? kStages - 1 : kStages - 2;
+    if (valid[index(last)] && taken && held_[index(last)]) {
+      pixels_[*held_[index(last)]].left = clock_;
+    }
+    // Each stage moves on if the next one is free.
+    bool ready = taken;
+    for (int stage = last; stage > 0; --stage) {
+      ready = ready || !valid[index(stage)];
+      if (!ready) continue;
+      held_[index(stage)] = held_[index(stage - 1)];
+      held_[index(stage - 1)].reset();
+    }
+    ++clock_;
+  }
+  // What was recorded ends here for a while.
+  void gap() { held_ = {}; }
+
+ private:
+  static std::size_t index(int stage) { return static_cast<std::size_t>(stage); }
+  static std::string prefix(int stage) {
+    constexpr const char* kPrefixes[] = {"fd", "s1", "s2", "s3", "cueing.s4"};
+    return fmt::format("{}.{}", kDatapath, kPrefixes[stage]);
+  }
+  bool bit(const std::vector<std::string>& values, const std::string& name) const {
+    const auto found = variables_.find(name);
+    return found != variables_.end() && values[found->second] == "1";
+  }
+  int number(const std::vector<std::string>& values, const std::string& name) const {
+    const auto found = variables_.find(name);
+    if (found == variables_.end()) return 0;
+    int number = 0;
+    for (const char c : values[found->second]) number = 2 * number + (c == '1' ? 1 : 0);
+    return number;
+  }
+  // The pixel that a stage holds, and its signals there.
+  void look(int stage, std::uint64_t ps, const std::vector<std::string>& values) {
+    std::optional<std::size_t>& held = held_[index(stage)];
+    if (!held) {  // it enters the first stage, or was inside when the trace began
+      held = pixels_.size();
+      TracedPixel pixel;
+      pixel.x = number(values, prefix(stage) + "_x");
+      pixel.y = number(values, prefix(stage) + "_y");
+      if (stage == 0) pixel.entered = clock_;
+      pixels_.push_back(std::move(pixel));
+    }
+    TracedPixel& pixel = pixels_[*held];
+    if (pixel.ps[index(stage)] != 0) return;
+    pixel.ps[index(stage)] = ps;
+    for (const auto& [name, variable] : variables_) {
+      const auto known = stages_of_signals().find(name);
+      if (known == stages_of_signals().end() || static_cast<int>(known->second) != stage) continue;
+      pixel.signals[name] = padded(values[variable], widths_.at(name));
+    }
+  }
+  // VCD leaves out leading zeros.
+  static std::string padded(const std::string& bits, int width) {
+    const auto all = static_cast<std::size_t>(width);
+    if (bits.size() >= all) return bits.substr(bits.size() - all);
+    const char fill = bits.empty() || bits.front() == 'x' || bits.front() == 'z' ? 'x' : '0';
+    return std::string(all - bits.size(), fill) + bits;
+  }
+
+  std::string scope_;
+  std::map<std::string, std::size_t> variables_;  // by full name
+  std::map<std::string, int> widths_;
+  std::array<std::optional<std::size_t>, kStages> held_{};
+  std::vector<TracedPixel> pixels_;
+  int clock_ = 0;
+};
+
+// All implementations of pixel_datapath in a file.
+struct TraceContent {
+  std::vector<Follower> followers;
+  bool complete = true;
+};
+
+TraceContent read_trace(const std::filesystem::path& file) {
+  struct Change {
+    std::size_t variable;
+    std::string value;
+  };
+  // The variables are known once the file was read: first the names, then the values.
+  const WaveReader names = WaveReader::read(file, [](auto...) {});
+  TraceContent content;
+  content.complete = names.complete;
+  for (std::size_t i = 0; i < names.variables.size(); ++i) {
+    const WaveVariable& variable = names.variables[i];
+    const std::size_t at = variable.scope.find(kDatapath);
+    if (variable.real || at == std::string::npos) continue;
+    const std::string scope = at == 0 ? std::string() : variable.scope.substr(0, at - 1);
+    auto follower = std::find_if(content.followers.begin(), content.followers.end(),
+                                 [&](const Follower& f) { return f.scope() == scope; });
+    if (follower == content.followers.end()) {
+      follower = content.followers.insert(follower, Follower(scope));
+    }
+    follower->add(variable.scope.substr(at) + "." + variable.name, i, variable.width);
+  }
+  if (content.followers.empty()) {
+    throw InputError(fmt::format("{}: no scope pixel_datapath in it", printable(file.string())));
+  }
+  std::vector<std::string> values(names.variables.size());
+  std::vector<Change> changes;  // of one time
+  std::uint64_t now = 0;
+  const auto apply = [&] {
+    for (Follower& follower : content.followers) {
+      for (const Change& change : changes) {
+        if (!follower.is_clock(change.variable)) continue;
+        if (change.value == "1" && values[change.variable] == "0") follower.edge(now, values);
+        if (change.value == "x") follower.gap();
+      }
+    }
+    for (Change& change : changes) values[change.variable] = std::move(change.value);
+    changes.clear();
+  };
+  WaveReader::read(file, [&](std::uint64_t ps, std::size_t variable, const std::string& value) {
+    if (ps != now) {
+      apply();
+      now = ps;
+    }
+    changes.push_back({variable, value});
+  });
+  apply();
+  return content;
+}
+
+bool same_place(const TracedPixel& a, const TracedPixel& b) {
+  return a.x == b.x && a.y == b.y;
+}
+
+// Whether the pixels of b from `offset` on are those of a, as far as both go.
+bool fits(const std::vector<TracedPixel>& a, std::size_t a_offset,
+          const std::vector<TracedPixel>& b, std::size_t b_offset) {
+  constexpr std::size_t kEnough = 64;
+  const std::size_t common = std::min({a.size() - a_offset, b.size() - b_offset, kEnough});
+  for (std::size_t i = 0; i < common; ++i) {
+    if (!same_place(a[a_offset + i], b[b_offset + i])) return false;
+  }
+  return common > 0;
+}
+
+std::optional<int> least_latency(const std::vector<TracedPixel>& pixels) {
+  std::optional<int> least;
+  for (const TracedPixel& pixel : pixels) {
+    if (!pixel.entered || !pixel.left) continue;
+    const int latency = *pixel.left - *pixel.entered + 1;
+    least = least ? std::min(*least, latency) : latency;
+  }
+  return least;
+}
+
+TraceComparison compare(const Follower& a, const Follower& b) {
+  TraceComparison result;
+  result.a_scope = a.scope();
+  result.b_scope = b.scope();
+  result.a_pixels = a.pixels().size();
+  result.b_pixels = b.pixels().size();
+  result.a_latency_cycles = least_latency(a.pixels());
+  result.b_latency_cycles = least_latency(b.pixels());
+  std::vector<std::pair<DatapathStage, std::string>> common;
+  for (const auto& [name, stage] : stages_of_signals()) {
+    if (a.variables().count(name) != 0 && b.variables().count(name) != 0) {
+      common.emplace_back(stage, name);
+    }
+  }
+  std::stable_sort(common.begin(), common.end(),
+                   [](const auto& x, const auto& y) { return x.first < y.first; });
+  result.signals = common.size();
+
+  // One may begin later than the other.
+  std::size_t a_offset = 0, b_offset = 0;
+  bool found = false;
+  for (std::size_t i = 0; i < b.pixels().size() && !found; ++i) {
+    if ((found = fits(a.pixels(), 0, b.pixels(), i))) b_offset = i;
+  }
+  for (std::size_t i = 0; i < a.pixels().size() && !found; ++i) {
+    if ((found = fits(a.pixels(), i, b.pixels(), 0))) a_offset = i;
+  }
+  const std::size_t count = std::min(a.pixels().size() - a_offset, b.pixels().size() - b_offset);
+  for (std::size_t i = 0; i < count; ++i) {
+    const TracedPixel& one = a.pixels()[a_offset + i];
+    const TracedPixel& other = b.pixels()[b_offset + i];
+    for (const auto& [stage, name] : common) {
+      const auto first = one.signals.find(name), second = other.signals.find(name);
+      if (first == one.signals.end() || second == other.signals.end()) continue;
+      if (first->second == second->second) continue;
+      const auto s = static_cast<std::size_t>(stage);
+      result.first = TraceDifference{
+          i, one.x, one.y, name, first->second, second->second, one.ps[s], other.ps[s]};
+      return result;
+    }
+    ++result.compared;
+  }
+  return result;
+}
+
+}  // namespace
+
+bool TraceDiff::same() const {
+  return std::all_of(comparisons.begin(), comparisons.end(),
+                     [](const TraceComparison& c) { return !c.first && c.compared > 0; });
+}
+
+TraceDiff diff_traces(const std::filesystem::path& a_file, const std::filesystem::path& b_file) {
+  const TraceContent a = read_trace(a_file);
+  TraceDiff diff;
+  diff.a_complete = a.complete;
+  std::error_code none;
+  if (std::filesystem::equivalent(a_file, b_file, none)) {
+    diff.b_complete = a.complete;
+    if (a.followers.size() < 2) {
+      throw InputError(fmt::format("{}: one pixel_datapath only; give another file to compare with",
+                                   printable(a_file.string())));
+    }
+    for (std::size_t i = 1; i < a.followers.size(); ++i) {
+      diff.comparisons.push_back(compare(a.followers.front(), a.followers[i]));
+    }
+    return diff;
+  }
+  const TraceContent b = read_trace(b_file);
+  diff.b_complete = b.complete;
+  for (const Follower& one : a.followers) {
+    for (const Follower& other : b.followers) {
+      if (one.scope() == other.scope()) diff.comparisons.push_back(compare(one, other));
+    }
+  }
+  if (diff.comparisons.empty()) {
+    diff.comparisons.push_back(compare(a.followers.front(), b.followers.front()));
+  }
+  return diff;
+}
+
+}  // namespace phongpipe
