@@ -40,7 +40,6 @@ int replay(const Options& options) {
   if (options.json != "-") {
     ReportStyle style;
     style.color = color_wanted();
-    style.command = "phongpipe replay " + options.capsule.string();
     print_or_throw(report_text(result, style));
     print_or_throw(same ? "  replay   the same divergence as recorded\n"
                         : fmt::format("  replay   recorded was {}\n", printable(capsule.found)));

@@ -1,5 +1,5 @@
 // build_rtl DIR PRESET…: Verilates and compiles pixel_datapath for each preset, in grey and colour,
-// so that nobody has to wait for it later.
+// and with its signals open, so that nobody has to wait for it later.
 #include <fmt/format.h>
 
 #include "testbench/hardware/hardware.h"
@@ -18,6 +18,8 @@ int main(int argc, char** argv) {
         configurations.push_back(datapath);
       }
     }
+    phongpipe::build_missing_rtl(configurations, options);
+    options.build = phongpipe::RtlBuild::signals;  // for traces
     phongpipe::build_missing_rtl(configurations, options);
     return 0;
   } catch (const std::exception& error) {

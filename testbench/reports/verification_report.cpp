@@ -147,7 +147,7 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
                                      "bright, or [depth_cue] narrow?",
                                      r.set_up.overflows)));
   }
-  if (!r.passed()) {
+  if (!r.passed() && !style.command.empty()) {
     page.line("again",
               printable(style.command) +
                   (r.options.detail == Detail::cycle ? " --verbose" : " --detail cycle --verbose"));

@@ -15,7 +15,7 @@ namespace phongpipe {
 struct ReportStyle {
   bool color = false;
   bool verbose = false;
-  std::string command;            // that verifies the same
+  std::string command;            // that verifies the same, or empty
   std::vector<std::string> more;  // files that were written, for the last line
 };
 

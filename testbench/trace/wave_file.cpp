@@ -36,14 +36,40 @@ void change_scope(const std::string& from, const std::string& to, const Begin& b
   }
 }
 
-class FstWriter : public WaveWriter {
+// The file under another name until it is complete.
+class PartialFile {
  public:
-  FstWriter(const fs::path& file, const std::vector<WaveVariable>& variables)
+  explicit PartialFile(const fs::path& file)
       : file_(file), partial_(file.string() + fmt::format(".partial-{}", getpid())) {
     check_writable(file);
-    fst_ = fstWriterCreate(partial_.c_str(), 1);
-    if (fst_ == nullptr)
-      throw InputError(fmt::format("{}: cannot be written", printable(file.string())));
+  }
+  ~PartialFile() {
+    std::error_code ignored;
+    fs::remove(partial_, ignored);
+  }
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+  const std::string& name() const { return partial_; }
+  void complete() const {
+    std::error_code error;
+    fs::rename(partial_, file_, error);
+    if (error) fail(error.message());
+  }
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw ToolError(fmt::format("{}: {}", printable(file_.string()), reason));
+  }
+
+ private:
+  fs::path file_;
+  std::string partial_;
+};
+
+class FstWriter : public WaveWriter {
+ public:
+  FstWriter(const fs::path& path, const std::vector<WaveVariable>& variables)
+      : file_(path), fst_(fstWriterCreate(file_.name().c_str(), 1)) {
+    if (fst_ == nullptr) file_.fail("cannot be written");
     fstWriterSetPackType(fst_, FST_WR_PT_LZ4);
     fstWriterSetTimescale(fst_, -12);
     fstWriterSetVersion(fst_, "phongpipe");
@@ -65,11 +91,10 @@ class FstWriter : public WaveWriter {
     change_scope(scope, "", begin, end);
   }
   ~FstWriter() override {
-    if (fst_ == nullptr) return;
-    fstWriterClose(fst_);
-    std::error_code ignored;
-    fs::remove(partial_, ignored);
+    if (fst_ != nullptr) fstWriterClose(fst_);
   }
+  FstWriter(const FstWriter&) = delete;
+  FstWriter& operator=(const FstWriter&) = delete;
 
   void time(std::uint64_t ps) override { fstWriterEmitTimeChange(fst_, ps); }
   void change(std::size_t index, const std::string& text) override {
@@ -83,31 +108,25 @@ class FstWriter : public WaveWriter {
   void close() override {
     fstWriterClose(fst_);
     fst_ = nullptr;
-    std::error_code error;
-    fs::rename(partial_, file_, error);
-    if (!error) return;
-    std::error_code ignored;
-    fs::remove(partial_, ignored);
-    throw ToolError(fmt::format("{}: {}", printable(file_.string()), error.message()));
+    file_.complete();
   }
 
  private:
-  fs::path file_;
-  std::string partial_;
-  void* fst_ = nullptr;
+  PartialFile file_;
+  void* fst_;
   std::vector<fstHandle> handles_;
   std::vector<bool> is_real_;
 };
 
 class VcdWriter : public WaveWriter {
  public:
-  VcdWriter(const fs::path& file, const std::vector<WaveVariable>& variables) : file_(file) {
-    check_writable(file);
-    text_ = "$version phongpipe $end\n$timescale 1 ps $end\n";
+  VcdWriter(const fs::path& path, const std::vector<WaveVariable>& variables)
+      : file_(path), out_(file_.name()) {
+    out_ << "$version phongpipe $end\n$timescale 1 ps $end\n";
     const auto begin = [this](const std::string& name) {
-      text_ += fmt::format("$scope module {} $end\n", name);
+      out_ << fmt::format("$scope module {} $end\n", name);
     };
-    const auto end = [this] { text_ += "$upscope $end\n"; };
+    const auto end = [this] { out_ << "$upscope $end\n"; };
     std::string scope;
     for (std::size_t i = 0; i < variables.size(); ++i) {
       const WaveVariable& variable = variables[i];
@@ -117,21 +136,24 @@ class VcdWriter : public WaveWriter {
       is_real_.push_back(variable.real);
       is_bit_.push_back(!variable.real && variable.width == 1);
       const std::string range = variable.range();
-      text_ += fmt::format("$var {} {} {} {}{}{} $end\n", variable.real ? "real" : "wire",
-                           variable.real ? 64 : variable.width, codes_.back(), variable.name,
-                           range.empty() ? "" : " ", range);
+      out_ << fmt::format("$var {} {} {} {}{}{} $end\n", variable.real ? "real" : "wire",
+                          variable.real ? 64 : variable.width, codes_.back(), variable.name,
+                          range.empty() ? "" : " ", range);
     }
     change_scope(scope, "", begin, end);
-    text_ += "$enddefinitions $end\n";
+    out_ << "$enddefinitions $end\n";
   }
 
-  void time(std::uint64_t ps) override { text_ += fmt::format("#{}\n", ps); }
+  void time(std::uint64_t ps) override { out_ << '#' << ps << '\n'; }
   void change(std::size_t index, const std::string& text) override {
-    const char* const kind = is_real_[index] ? "r" : "b";
-    text_ += is_bit_[index] ? fmt::format("{}{}\n", text, codes_[index])
-                            : fmt::format("{}{} {}\n", kind, text, codes_[index]);
+    if (!is_bit_[index]) out_ << (is_real_[index] ? 'r' : 'b');
+    out_ << text << (is_bit_[index] ? "" : " ") << codes_[index] << '\n';
   }
-  void close() override { write_text(file_, text_); }
+  void close() override {
+    out_.close();
+    if (!out_) file_.fail("not all of it could be written; is the disk full?");
+    file_.complete();
+  }
 
  private:
   // Printable characters, as short as they can be.
@@ -144,8 +166,8 @@ class VcdWriter : public WaveWriter {
     return text;
   }
 
-  fs::path file_;
-  std::string text_;
+  PartialFile file_;
+  std::ofstream out_;
   std::vector<std::string> codes_;
   std::vector<bool> is_bit_, is_real_;
 };

@@ -197,9 +197,11 @@ const std::vector<BadScene> kBadLights = {
 const std::vector<BadScene> kBadObjects = {
     {"no_object", kHead, "s.toml: missing table [[object]]"},
     {"no_source", kHead + "[[object]]\nscale = 1\n",
-     "s.toml:11: [[object]] needs exactly one of 'mesh', 'primitive' and 'triangles'"},
+     "s.toml:11: [[object]] needs exactly one of 'mesh', 'primitive', 'triangles', 'vertices' and "
+     "'triangle_rows'"},
     {"two_sources", kGood + "mesh = 'a.obj'\n",
-     "s.toml:11: [[object]] needs exactly one of 'mesh', 'primitive' and 'triangles'"},
+     "s.toml:11: [[object]] needs exactly one of 'mesh', 'primitive', 'triangles', 'vertices' and "
+     "'triangle_rows'"},
     {"primitive", replaced(kGood, "\"sphere\"", "\"cube\""),
      "s.toml:12: primitive is 'cube', must be one of: teapot, sphere, torus, pawn, plane"},
     {"segments_least", kGood + "segments = [2, 9]\n",

@@ -1,0 +1,90 @@
+// phongpipe trace, diff-traces and replay, as a user calls them.
+#include <filesystem>
+
+#include "model/files/text_file.h"
+#include "testbench/tests/commands/program.h"
+
+namespace phongpipe {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TraceProgram : public Program {
+ protected:
+  // RTL with a fault in one pixel.
+  std::string faulty_rtl() {
+    fs::create_directories(folder_ / "rtl");
+    for (const auto& entry : fs::directory_iterator(PHONGPIPE_HARDWARE)) {
+      if (entry.is_regular_file()) fs::copy(entry.path(), folder_ / "rtl");
+    }
+    std::string text = read_whole_file(file("rtl/pixel_datapath.sv"));
+    const std::string correct = ".highlight_open(s2_open)";
+    text.replace(text.find(correct), correct.size(),
+                 ".highlight_open(s2_open ^ (s2_x == 100 && s2_y == 120))");
+    write("rtl/pixel_datapath.sv", text);
+    setenv("XDG_CACHE_HOME", file("cache").c_str(), 1);
+    return file("rtl");
+  }
+};
+
+TEST_F(TraceProgram, WritesTheTraceAndItsViews) {
+  const ProcessOutput output = run({"trace", "sphere", "--worst", "-o", file("t.fst")});
+  ASSERT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(output.text.find("marker   enters "), std::string::npos) << output.text;
+  for (const char* name : {"t.fst", "t.gtkw", "t.sucl"}) {
+    EXPECT_TRUE(fs::exists(file(name))) << name;
+  }
+  EXPECT_LT(fs::file_size(file("t.fst")), 100'000U);
+  EXPECT_EQ(run({"diff-traces", file("t.fst"), file("t.fst")}).status, 0);
+}
+
+TEST_F(TraceProgram, BadTargetsAreOneLineAndNothingIsWritten) {
+  const std::string t = file("t.fst");
+  expect_refused({"trace", "sphere", "-o", t}, "Give one of --pixel X,Y");
+  expect_refused({"trace", "sphere", "--pixel", "1,1", "-o", t}, "the nearest that is");
+  expect_refused({"trace", "sphere", "--pixel", "1", "-o", t}, "give X,Y");
+  expect_refused({"trace", "sphere", "--pixel", "300,1", "-o", t}, "x goes from 0 to 255");
+  expect_refused({"trace", "sphere", "--cycles", "7:3", "-o", t}, "write A:B");
+  expect_refused({"trace", "sphere", "--span", "7", "--frame", "-o", t}, "Give one of");
+  expect_refused({"trace", "sphere", "--worst", "-o", file("t.txt")}, ".fst or .vcd");
+  expect_refused({"trace", "sphere", "--worst", "-o", "/nosuch/t.fst"}, "/nosuch/t.fst");
+  expect_refused({"diff-traces", "a.fst", "b.fst"}, "a.fst: no such file");
+  expect_refused({"replay", "a.toml"}, "a.toml: no such file");
+  EXPECT_FALSE(fs::exists(t));
+}
+
+TEST_F(TraceProgram, AFaultIsNamedTracedAndReplayed) {
+  const std::string rtl = faulty_rtl();
+  const ProcessOutput output =
+      run({"verify", "sphere", "--rtl", rtl, "--out", file("out"), "--json", file("r.json")});
+  EXPECT_EQ(output.status, 1) << output.text;
+  EXPECT_NE(output.text.find("cause    pixel_datapath.channel[0].summation.sum: model 0x"),
+            std::string::npos)
+      << output.text;
+  const auto json = nlohmann::json::parse(read_whole_file(file("r.json")))["first_divergence"];
+  EXPECT_EQ(json["x"], 100);
+  EXPECT_EQ(json["y"], 120);
+  EXPECT_EQ(json["block"], "pixel_datapath.channel[0].summation");
+  EXPECT_EQ(json["signal"], "sum");
+  EXPECT_NE(json["model"], json["other"]);
+  const std::string capsule = json["capsule"];
+  EXPECT_EQ(capsule, file("out/sphere.toml"));
+  for (const char* name : {"out/sphere.fst", "out/sphere.gtkw", "out/sphere.sucl"}) {
+    EXPECT_TRUE(fs::exists(file(name))) << name;
+  }
+  EXPECT_EQ(run({"diff-traces", file("out/sphere.fst"), file("out/sphere.fst")}).status, 1)
+      << "RTL and SystemC differ there";
+
+  const ProcessOutput replay = run({"replay", capsule, "--rtl", rtl});
+  EXPECT_EQ(replay.status, 1) << replay.text;
+  EXPECT_NE(replay.text.find("the same divergence as recorded"), std::string::npos) << replay.text;
+  expect_refused({"replay", capsule}, "found in other RTL");
+  const ProcessOutput mended = run({"replay", capsule, "--anyway"});
+  EXPECT_EQ(mended.status, 0) << mended.text;
+  EXPECT_NE(mended.text.find("recorded was pixel_datapath.channel[0].summation.sum"),
+            std::string::npos)
+      << mended.text;
+}
+
+}  // namespace
+}  // namespace phongpipe

@@ -1,0 +1,272 @@
+// trace: windows of waveforms show what happened, change nothing, and come with views that are
+// true.
+#include "testbench/trace/wave_trace.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <map>
+#include <set>
+
+#include "model/files/text_file.h"
+#include "model/fixed/model_frame.h"
+#include "sim/pipeline.h"
+#include "testbench/cases/named_scene.h"
+#include "testbench/cosim/stream_checker.h"
+#include "testbench/system/output_file.h"
+#include "testbench/system/process.h"
+#include "testbench/trace/trace_diff.h"
+#include "testbench/trace/views.h"
+
+namespace phongpipe {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Traces : public testing::Test {
+ protected:
+  Traces()
+      : folder_(fs::path(testing::TempDir()) / fmt::format("phongpipe-trace-{}", getpid())),
+        hardware_(load_hardware("default", {})),
+        frame_(load_named_scene("sphere", {"scene.image.width=64", "scene.image.height=64",
+                                           "scene.object.0.segments=[10,6]"}),
+               hardware_.formats, hardware_.setup),
+        library_(frame_.setup.configuration, build()) {
+    fs::create_directories(folder_);
+  }
+  ~Traces() override { fs::remove_all(folder_); }
+
+  static RtlBuildOptions build() {
+    RtlBuildOptions options;
+    options.build = RtlBuild::signals;
+    options.destination = PHONGPIPE_RTL_CACHE;
+    return options;
+  }
+  RecordedTrace record(const TraceTarget& target, const std::string& name,
+                       const TraceOptions& options = {}) {
+    windows_ = find_windows(frame_, hardware_, target, options);
+    return record_trace(frame_, hardware_, library_, windows_, target, options, folder_ / name);
+  }
+  static TraceTarget whole_frame() {
+    TraceTarget target;
+    target.frame = true;
+    return target;
+  }
+  static TraceTarget pixel(int x, int y) {
+    TraceTarget target;
+    target.pixels = {{x, y}};
+    return target;
+  }
+
+  fs::path folder_;
+  Hardware hardware_;
+  PreparedFrame frame_;
+  RtlLibrary library_;
+  std::vector<CycleWindow> windows_;
+};
+
+// All values of a variable with their times.
+std::map<std::uint64_t, std::string> values_of(const fs::path& file, const std::string& name) {
+  std::map<std::uint64_t, std::string> values;
+  const WaveReader names = WaveReader::read(file, [](auto...) {});
+  WaveReader::read(file, [&](std::uint64_t ps, std::size_t index, const std::string& value) {
+    if (names.variables[index].full_name() == name) values[ps] = value;
+  });
+  return values;
+}
+
+TEST_F(Traces, APixelIsInItsWindowWithItsColor) {
+  const ModelFrame model = run_model(frame_.setup);
+  const RecordedTrace trace = record(pixel(30, 31), "a.vcd");
+  ASSERT_EQ(trace.markers.size(), 2U);
+  EXPECT_EQ(trace.markers[0].name, "enters 30,31");
+  EXPECT_EQ(trace.markers[1].name, "leaves 30,31");
+  EXPECT_GE(trace.markers[1].cycle - trace.markers[0].cycle,
+            frame_.setup.configuration.latency_cycles() - 1);
+  ASSERT_EQ(windows_.size(), 1U);
+  EXPECT_LE(windows_[0].first + 32, trace.markers[0].cycle);
+  EXPECT_EQ(windows_[0].last, trace.markers[1].cycle + 32);
+  const auto color = model.framebuffer.color(31 * 64 + 30);
+  const std::uint64_t leaves = static_cast<std::uint64_t>(trace.markers[1].cycle) * trace.period_ps;
+  for (const char* side : {"rtl", "systemc"}) {
+    const auto values =
+        values_of(folder_ / "a.vcd", fmt::format("phongpipe.{}.pixel_datapath.pixel_color", side));
+    const auto after = values.upper_bound(leaves);
+    ASSERT_NE(after, values.begin()) << side;
+    EXPECT_EQ(std::stoul(std::prev(after)->second, nullptr, 2), color) << side;
+  }
+  EXPECT_LT(fs::file_size(folder_ / "a.vcd"), 200'000U);
+}
+
+TEST_F(Traces, AWindowIsPartOfTheWholeTraceInBothFormats) {
+  record(whole_frame(), "whole.fst");
+  TraceTarget target;
+  target.span = 40;
+  for (const char* name : {"window.fst", "window.vcd"}) {
+    record(target, name);
+    const TraceDiff diff = diff_traces(folder_ / "whole.fst", folder_ / name);
+    ASSERT_EQ(diff.comparisons.size(), 2U) << "rtl and systemc";
+    EXPECT_TRUE(diff.same()) << name;
+    for (const TraceComparison& c : diff.comparisons) {
+      EXPECT_GT(c.compared, 10U);
+      EXPECT_GT(c.signals, 20U);
+      EXPECT_EQ(c.compared, c.b_pixels);
+      EXPECT_GT(c.a_pixels, c.b_pixels);
+    }
+  }
+}
+
+TEST_F(Traces, ManyWindowsAreOneFile) {
+  TraceTarget target = pixel(20, 30);
+  target.pixels.push_back({40, 40});
+  target.margin_cycles = 3;
+  record(target, "two.fst");
+  EXPECT_EQ(windows_.size(), 2U);
+  const TraceDiff diff = diff_traces(folder_ / "two.fst", folder_ / "two.fst");
+  ASSERT_EQ(diff.comparisons.size(), 1U) << "RTL with SystemC";
+  EXPECT_TRUE(diff.same());
+}
+
+TEST_F(Traces, TracingChangesNothing) {
+  TraceOptions options;
+  options.stall_percent = 30;
+  options.seed = 5;
+  const RecordedTrace trace = record(pixel(30, 31), "a.fst", options);
+  Child child([&] {
+    StreamHash hash;
+    SimulationOptions simulation;
+    simulation.stall_percent = options.stall_percent;
+    simulation.stall_seed = options.seed;
+    simulation.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles,
+                             std::size_t count) { hash.add(pixels, cycles, count); };
+    const SimulationResult result = simulate(frame_.setup, hardware_.pipeline, simulation);
+    const Fingerprint f = hash.fingerprint();
+    return fmt::format("{} {}", result.frame_cycles, f.stream_hash ^ f.cycles_hash);
+  });
+  EXPECT_EQ(child.get(), fmt::format("{} {}", trace.frame_cycles, trace.stream_hash));
+}
+
+TEST_F(Traces, ViewsNameOnlyWhatIsThere) {
+  const RecordedTrace trace = record(pixel(30, 31), "a.fst");
+  const WaveReader file = WaveReader::read(folder_ / "a.fst", [](auto...) {});
+  std::set<std::string> names, declared;
+  for (const WaveVariable& variable : file.variables) names.insert(variable.full_name());
+  for (const WaveVariable& variable : trace.variables) {
+    declared.insert(variable.full_name() + variable.range());
+  }
+  EXPECT_EQ(names.size(), declared.size());
+  std::size_t shown = 0, fixed_points = 0;
+  std::string_view line;
+  const std::string gtkwave = gtkwave_view(trace, windows_[0], folder_ / "a.fst");
+  for (LineReader lines(gtkwave); lines.next(line);) {
+    fixed_points += line.substr(0, 15) == "[fpshift_count]" ? 1 : 0;
+    if (line.substr(0, 10) != "phongpipe.") continue;
+    EXPECT_EQ(declared.count(std::string(line)), 1U) << line;
+    ++shown;
+  }
+  EXPECT_GT(shown, 100U);
+  EXPECT_GT(fixed_points, 10U);
+  const std::string surfer = surfer_view(trace);
+  std::size_t added = 0, formats = 0;
+  for (LineReader lines(surfer); lines.next(line);) {
+    formats += line.substr(0, 16) == "item_set_format " ? 1 : 0;
+    constexpr std::string_view kAdd = "variable_add ";
+    if (line.substr(0, kAdd.size()) != kAdd) continue;
+    EXPECT_EQ(names.count(std::string(line.substr(kAdd.size()))), 1U) << line;
+    ++added;
+  }
+  EXPECT_EQ(added, shown);
+  EXPECT_EQ(formats, fixed_points);
+}
+
+TEST_F(Traces, WordsAreDeclaredByTheirWeightsAndShownInLsb) {
+  record(pixel(30, 31), "a.vcd");
+  const std::string text = read_whole_file(folder_ / "a.vcd");
+  const std::size_t at = text.find(" v [9:-16] $end");
+  EXPECT_NE(at, std::string::npos) << text.substr(0, 3000);
+  const std::string name = "pixel_datapath.channel[0].diffuse.diffuse_series.v";
+  const auto words = values_of(folder_ / "a.vcd", "phongpipe.rtl." + name);
+  const auto numbers = values_of(folder_ / "a.vcd", "phongpipe.lsb.rtl." + name);
+  ASSERT_GT(numbers.size(), 20U);
+  for (const auto& [ps, number] : numbers) {
+    const std::string& bits = words.at(ps);
+    std::int64_t word = 0;
+    for (const char bit : bits) word = 2 * word + (bit == '1' ? 1 : 0);
+    word = wrap_to(word, static_cast<int>(bits.size()));
+    EXPECT_EQ(std::stod(number), static_cast<double>(word) / 65536);
+  }
+}
+
+TEST_F(Traces, WhatIsNotThereIsRefusedWithWhatIs) {
+  const auto refusal = [&](const TraceTarget& target) {
+    try {
+      find_windows(frame_, hardware_, target, {});
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  TraceTarget target;
+  target.triangle = 10'000;
+  EXPECT_NE(refusal(target).find("the scene has the triangles 0 to"), std::string::npos);
+  target = {};
+  target.span = 100'000;
+  EXPECT_NE(refusal(target).find("the frame has the spans 0 to"), std::string::npos);
+  target = {};
+  target.cycles = CycleWindow{10, 1'000'000'000};
+  EXPECT_NE(refusal(target).find("the frame has the cycles 0:"), std::string::npos);
+}
+
+TEST_F(Traces, AFaultIsFoundByComparingTraces) {
+  const fs::path rtl = folder_ / "rtl";
+  fs::create_directories(rtl);
+  for (const auto& entry : fs::directory_iterator(PHONGPIPE_HARDWARE)) {
+    if (entry.is_regular_file()) fs::copy(entry.path(), rtl);
+  }
+  std::string text = read_whole_file(rtl / "pixel_datapath.sv");
+  const std::string correct = ".highlight_open(s2_open)";
+  text.replace(text.find(correct), correct.size(),
+               ".highlight_open(s2_open ^ (s2_x == 33 && s2_y == 31))");
+  write_text(rtl / "pixel_datapath.sv", text);
+  RtlBuildOptions options = build();
+  options.sources = rtl;
+  options.destination = folder_;
+  const RtlLibrary faulty(frame_.setup.configuration, options);
+  const TraceTarget target = pixel(33, 31);
+  record(target, "good.fst");
+  record_trace(frame_, hardware_, faulty, windows_, target, {}, folder_ / "bad.fst");
+  const TraceDiff diff = diff_traces(folder_ / "good.fst", folder_ / "bad.fst");
+  EXPECT_FALSE(diff.same());
+  for (const TraceComparison& c : diff.comparisons) {
+    ASSERT_EQ(c.first.has_value(), c.a_scope == "phongpipe.rtl") << c.a_scope;
+    if (!c.first) continue;
+    EXPECT_EQ(c.first->signal, "pixel_datapath.channel[0].summation.sum");
+    EXPECT_EQ(c.first->x, 33);
+    EXPECT_EQ(c.first->y, 31);
+  }
+}
+
+TEST_F(Traces, FilesThatWereCutAreReadAsFarAsTheyGo) {
+  record(pixel(30, 31), "a.vcd");
+  record(pixel(30, 31), "a.fst");
+  const std::string vcd = read_whole_file(folder_ / "a.vcd");
+  write_text(folder_ / "cut.vcd", vcd.substr(0, vcd.size() * 2 / 3));
+  const TraceDiff diff = diff_traces(folder_ / "a.vcd", folder_ / "cut.vcd");
+  EXPECT_TRUE(diff.same());
+  EXPECT_TRUE(diff.a_complete);
+  EXPECT_FALSE(diff.b_complete);
+  EXPECT_LT(diff.comparisons.front().b_pixels, diff.comparisons.front().a_pixels);
+  const std::string fst = read_whole_file(folder_ / "a.fst");
+  write_text(folder_ / "cut.fst", fst.substr(0, fst.size() / 2));
+  write_text(folder_ / "none.vcd", "hello\n");
+  write_text(folder_ / "names.vcd",
+             "$timescale 1 ns $end\n$scope module top $end\n"
+             "$var wire 1 ! clk $end\n$upscope $end\n$enddefinitions $end\n");
+  for (const char* name : {"cut.fst", "none.vcd", "names.vcd", "absent.vcd"}) {
+    EXPECT_THROW(diff_traces(folder_ / "a.vcd", folder_ / name), InputError) << name;
+  }
+}
+
+}  // namespace
+}  // namespace phongpipe
