@@ -254,6 +254,7 @@ TraceComparison compare(const Follower& a, const Follower& b) {
   for (std::size_t i = 0; i < a.pixels().size() && !found; ++i) {
     if ((found = fits(a.pixels(), i, b.pixels(), 0))) a_offset = i;
   }
+  if (!found) return result;
   const std::size_t count = std::min(a.pixels().size() - a_offset, b.pixels().size() - b_offset);
   for (std::size_t i = 0; i < count; ++i) {
     const TracedPixel& one = a.pixels()[a_offset + i];

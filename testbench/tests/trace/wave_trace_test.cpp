@@ -247,6 +247,45 @@ TEST_F(Traces, AFaultIsFoundByComparingTraces) {
   }
 }
 
+// What Icarus Verilog records of the installed RTL, or of RTL with a fault.
+TEST_F(Traces, OfOtherToolsAreComparedByTheirNames) {
+  const auto record_with_iverilog = [&](const std::string& name, const std::string& fault) {
+    std::vector<std::string> command = {"iverilog",
+                                        "-g2012",
+                                        "-o",
+                                        "tb.vvp",
+                                        "-I",
+                                        PHONGPIPE_HARDWARE,
+                                        PHONGPIPE_SOURCES "/testbench/tests/trace/iverilog_tb.sv"};
+    for (const fs::path& source : rtl_sources(PHONGPIPE_HARDWARE)) {
+      if (source.extension() != ".sv") continue;
+      std::string text = read_whole_file(source);
+      const std::string correct = "integer_part;\n    end";
+      const std::size_t at = text.find(correct);
+      if (!fault.empty() && at != std::string::npos) text.replace(at, 12, fault);
+      write_text(folder_ / source.filename(), text);
+      command.push_back(source.filename().string());
+    }
+    ASSERT_EQ(run_process(command, folder_).status, 0);
+    ASSERT_EQ(run_process({"vvp", "tb.vvp"}, folder_).status, 0);
+    fs::rename(folder_ / "iverilog.vcd", folder_ / name);
+  };
+  record_with_iverilog("a.vcd", "");
+  record_with_iverilog("b.vcd", "integer_part ^ (integer_part[1:0] == 3)");
+  EXPECT_THROW(diff_traces(folder_ / "a.vcd", folder_ / "a.vcd"), InputError)
+      << "there is one implementation in it";
+  const TraceDiff diff = diff_traces(folder_ / "a.vcd", folder_ / "b.vcd");
+  ASSERT_EQ(diff.comparisons.size(), 1U);
+  ASSERT_TRUE(diff.comparisons[0].first.has_value());
+  EXPECT_EQ(diff.comparisons[0].first->signal, "pixel_datapath.specular.rom.address");
+  EXPECT_EQ(diff.comparisons[0].a_pixels, 12U);
+  EXPECT_EQ(diff.comparisons[0].a_latency_cycles, kDatapathLatency);
+  record(pixel(30, 31), "ours.fst");
+  const TraceDiff none = diff_traces(folder_ / "a.vcd", folder_ / "ours.fst");
+  EXPECT_FALSE(none.same());
+  EXPECT_EQ(none.comparisons[0].compared, 0U) << "they have no pixel in common";
+}
+
 TEST_F(Traces, FilesThatWereCutAreReadAsFarAsTheyGo) {
   record(pixel(30, 31), "a.vcd");
   record(pixel(30, 31), "a.fst");
