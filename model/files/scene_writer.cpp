@@ -49,9 +49,7 @@ toml::table shading_table(const Shading& shading) {
 }
 
 toml::table light_table(const Light& light) {
-  constexpr const char* kTypes[] = {"directional", "point", "spot"};
-  toml::table table{{"type", kTypes[static_cast<std::size_t>(light.type)]},
-                    {"color", numbers(light.color)}};
+  toml::table table{{"type", name(light.type)}, {"color", numbers(light.color)}};
   if (light.type != LightType::point) table.insert("direction", numbers(light.direction));
   if (light.type != LightType::directional) {
     table.insert("position", numbers(light.position));

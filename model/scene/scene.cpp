@@ -2,6 +2,11 @@
 
 namespace phongpipe {
 
+std::string_view name(LightType type) {
+  constexpr std::string_view kNames[] = {"directional", "point", "spot"};
+  return kNames[static_cast<std::size_t>(type)];
+}
+
 bool is_attenuated(const Light& light) {
   return light.type != LightType::directional &&
          (light.attenuation[1] != 0 || light.attenuation[2] != 0);

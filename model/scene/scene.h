@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace phongpipe {
@@ -43,6 +44,7 @@ struct Shading {
 };
 
 enum class LightType { directional, point, spot };
+std::string_view name(LightType type);
 struct Light {
   LightType type = LightType::directional;
   Vec3 direction = Vec3(0, 0, -1);  // in which the light travels, unit; directional and spot

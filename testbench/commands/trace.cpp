@@ -89,18 +89,18 @@ void announce_size(const Options& options, const PreparedFrame& frame, const Har
   constexpr std::int64_t kPiece = 2000, kLong = 50'000;
   constexpr double kAskFrom = 1e9;
   const std::int64_t cycles = cycles_in(windows);
-  if (cycles < kLong) return;
+  if (cycles < kLong && !target.frame) return;
   const CycleWindow& longest = *std::max_element(windows.begin(), windows.end(),
                                                  [](const CycleWindow& a, const CycleWindow& b) {
                                                    return a.last - a.first < b.last - b.first;
                                                  });
-  const std::int64_t middle = (longest.first + longest.last) / 2;
+  const std::int64_t begin = std::max(longest.first, (longest.first + longest.last - kPiece) / 2);
+  const CycleWindow piece_window = {begin, std::min(begin + kPiece - 1, longest.last)};
   const fs::path piece = options.file.string() + ".piece" + options.file.extension().string();
-  record_trace(frame, hardware, library, {{middle, middle + kPiece - 1}}, target, options.trace,
-               piece);
+  record_trace(frame, hardware, library, {piece_window}, target, options.trace, piece);
   std::error_code none;
-  const auto bytes =
-      static_cast<double>(fs::file_size(piece, none)) * static_cast<double>(cycles) / kPiece;
+  const auto bytes = static_cast<double>(fs::file_size(piece, none)) * static_cast<double>(cycles) /
+                     static_cast<double>(cycles_in({piece_window}));
   fs::remove(piece, none);
   tell(fmt::format("{} cycles: about {}", cycles, size_text(bytes)));
   if (bytes > kAskFrom && !options.yes) {

@@ -86,6 +86,12 @@ class Verifier {
       show(scene, result, name, failure);
       if (!options_.pictures.empty()) {
         page_.add(request_of(scene), result, picture_files(options_.pictures, name));
+        std::error_code none;
+        const bool beside = std::filesystem::equivalent(
+            std::filesystem::absolute(options_.timeline).parent_path(), options_.pictures, none);
+        if (!options_.timeline.empty() && beside) {
+          page_.add_picture("timeline", timeline_picture_file());
+        }
       }
       results_.push_back(report_json(result, failure.capsule.string()));
       passed_ += result.passed() ? 1 : 0;

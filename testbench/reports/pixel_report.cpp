@@ -92,18 +92,6 @@ double in_units(const SeriesCoefficients& series, std::size_t i) {
   return std::ldexp(static_cast<double>(series.rounded[i]), -series.fraction_bits);
 }
 
-std::string_view name(LightType type) {
-  switch (type) {
-    case LightType::directional:
-      return "directional";
-    case LightType::point:
-      return "point";
-    case LightType::spot:
-      break;
-  }
-  return "spot";
-}
-
 std::vector<double> numbers(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }

@@ -15,6 +15,10 @@ void VerificationPage::add(const RunRequest& request, const VerificationResult& 
                                       {"error map", {}, beside(pictures[2])}};
 }
 
+void VerificationPage::add_picture(const std::string& label, const std::filesystem::path& file) {
+  pictures_[runs_.back().identity].push_back({label, {}, file.filename().string()});
+}
+
 void VerificationPage::add_refused(const RunRequest& request, const std::string& why) {
   put(request, refused(why));
 }

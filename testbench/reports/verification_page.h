@@ -16,6 +16,8 @@ class VerificationPage {
   // A result, and the files of write_pictures(), which belong into the page's folder.
   void add(const RunRequest& request, const VerificationResult& result,
            const std::array<std::filesystem::path, 3>& pictures);
+  // One more picture of the last result, a file in the page's folder.
+  void add_picture(const std::string& label, const std::filesystem::path& file);
   // A scene that cannot be verified.
   void add_refused(const RunRequest& request, const std::string& why);
   std::string text() const;

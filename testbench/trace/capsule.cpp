@@ -44,6 +44,30 @@ std::string hardware_toml(const Hardware& hardware) {
   return fmt::format("technology = \"{}\"\n{}\n", hardware.technology.name, text.str());
 }
 
+// What was expected and found, for readers: replay finds it anew.
+toml::table divergence_table(const VerificationResult& r) {
+  toml::table table;
+  const ImplementationResult& found = r.systemc.first_divergence || !r.rtl ? r.systemc : *r.rtl;
+  if (found.first_divergence) {
+    const Divergence& d = *found.first_divergence;
+    table = toml::table{{"triangle", d.triangle},
+                        {"x", d.model.x},
+                        {"y", d.model.y},
+                        {"cycle", d.cycle},
+                        {"pixel_of_the_stream", static_cast<std::int64_t>(d.stream_index)},
+                        {"expected_color", d.model.color},
+                        {"found_color", d.found.color}};
+  }
+  if (found.signal_divergence) {
+    const SignalDivergence& s = *found.signal_divergence;
+    table.insert("signal", s.name());
+    table.insert("signal_cycle", s.cycle);
+    table.insert("expected", s.model);
+    table.insert("found", s.other);
+  }
+  return table;
+}
+
 }  // namespace
 
 std::string divergence_text(const VerificationResult& r) {
@@ -72,6 +96,7 @@ std::string capsule_text(const Scene& scene, const VerificationResult& result) {
                          {"name", scene.source},
                          {"rtl_hash", fmt::format("{:016x}", rtl_hash(options.rtl_sources))},
                          {"found", divergence_text(result)},
+                         {"divergence", divergence_table(result)},
                          {"options", chosen},
                          {"hardware", hardware_toml(result.hardware)},
                          {"scene", scene_toml(scene)}};
@@ -106,6 +131,7 @@ Capsule read_capsule(const std::filesystem::path& file, bool anyway) {
   capsule.name = root.text("name");
   capsule.found = root.text("found");
   const std::string hash = root.text("rtl_hash");
+  root.table("divergence");
   const TomlTable options = root.table("options");
   for (const RunOption& option : run_options()) {
     option.put(capsule.options, options.text(option.name));

@@ -8,18 +8,6 @@
 namespace phongpipe {
 namespace {
 
-std::string_view name(LightType type) {
-  switch (type) {
-    case LightType::directional:
-      return "directional";
-    case LightType::point:
-      return "point";
-    case LightType::spot:
-      return "spot";
-  }
-  return "";
-}
-
 std::optional<std::string> light_refusal(const Abilities& can, const Scene& scene) {
   if (scene.lights.size() > 1 && !can.several_lights) {
     return fmt::format("it has one light, the scene has {}", scene.lights.size());
