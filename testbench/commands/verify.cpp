@@ -86,10 +86,7 @@ class Verifier {
       show(scene, result, name, failure);
       if (!options_.pictures.empty()) {
         page_.add(request_of(scene), result, picture_files(options_.pictures, name));
-        std::error_code none;
-        const bool beside = std::filesystem::equivalent(
-            std::filesystem::absolute(options_.timeline).parent_path(), options_.pictures, none);
-        if (!options_.timeline.empty() && beside) {
+        if (timeline_is_beside_page()) {
           page_.add_picture("timeline", timeline_picture_file());
         }
       }
@@ -155,6 +152,12 @@ class Verifier {
     phongpipe::check_outputs(options_.pictures, files);
   }
 
+  bool timeline_is_beside_page() const {
+    std::error_code none;
+    return !options_.timeline.empty() &&
+           std::filesystem::equivalent(std::filesystem::absolute(options_.timeline).parent_path(),
+                                       options_.pictures, none);
+  }
   std::filesystem::path failure_folder() const {
     return options_.pictures.empty() ? std::filesystem::path(kFailureFolder) : options_.pictures;
   }
