@@ -143,6 +143,7 @@ int trace(const Options& options) {
   write_text(surfer, surfer_view(recorded));
 
   std::vector<std::string> shown;
+  shown.reserve(windows.size());
   for (const CycleWindow& window : windows) {
     shown.push_back(fmt::format("{}:{}", window.first, window.last));
   }

@@ -105,6 +105,7 @@ class Verifier {
   }
 
   void write_timeline(const Timeline& timeline, const std::string& scene) const {
+    if (timeline_is_beside_page()) std::filesystem::create_directories(options_.pictures);
     write_text(options_.timeline, timeline_json(timeline, scene));
     write_text(timeline_picture_file(), timeline_picture(timeline, scene));
   }
@@ -140,12 +141,14 @@ class Verifier {
   // What cannot be written is said before the work.
   void check_outputs() const {
     check_output(options_.json);
-    if (!options_.timeline.empty()) {
+    const bool beside = timeline_is_beside_page();  // in a folder that need not exist yet
+    if (!options_.timeline.empty() && !beside) {
       check_writable(options_.timeline);
       check_writable(timeline_picture_file());
     }
     if (options_.pictures.empty()) return;
     std::vector<std::filesystem::path> files = {page_file()};
+    if (beside) files.insert(files.end(), {options_.timeline, timeline_picture_file()});
     for (const std::string& name : names_) {
       for (const auto& file : picture_files(options_.pictures, name)) files.push_back(file);
     }
@@ -153,10 +156,11 @@ class Verifier {
   }
 
   bool timeline_is_beside_page() const {
-    std::error_code none;
-    return !options_.timeline.empty() &&
-           std::filesystem::equivalent(std::filesystem::absolute(options_.timeline).parent_path(),
-                                       options_.pictures, none);
+    const auto plain = [](const std::filesystem::path& path) {
+      return std::filesystem::absolute(path).lexically_normal();
+    };
+    return !options_.timeline.empty() && !options_.pictures.empty() &&
+           plain(options_.timeline).parent_path() / "" == plain(options_.pictures / "");
   }
   std::filesystem::path failure_folder() const {
     return options_.pictures.empty() ? std::filesystem::path(kFailureFolder) : options_.pictures;

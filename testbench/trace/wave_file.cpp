@@ -4,7 +4,7 @@
 #include <gtkwave/fstapi.h>
 #include <unistd.h>
 
-#include <cstring>
+#include <cmath>
 #include <fstream>
 #include <unordered_map>
 
@@ -332,9 +332,9 @@ bool read_fst(const fs::path& file, WaveReader& reader, const WaveReader::Visit&
     const WaveReader::Visit& visit;
     double ps;
   };
-  double ps = 1;
-  for (int exponent = fstReaderGetTimescale(fst); exponent > -12; --exponent) ps *= 10;
-  for (int exponent = fstReaderGetTimescale(fst); exponent < -12; ++exponent) ps /= 10;
+  // A power of ten of seconds.
+  const auto exponent = static_cast<double>(fstReaderGetTimescale(fst));
+  const double ps = std::pow(10, exponent + 12);
   Context context{places, visit, ps};
   fstReaderSetFacProcessMaskAll(fst);
   fstReaderIterBlocks(
