@@ -400,7 +400,8 @@ TEST_F(Campaigns, FailuresOfTheUsersRtlAreOneBucket) {
                                             file("a.db"),    "--junit",   file("junit.xml")};
   const ProcessOutput output = run(regress);
   EXPECT_EQ(output.status, 1) << output.text;
-  EXPECT_NE(output.text.find("2 × RTL: color: pixel_datapath.channel[].s2_word: RTL differs"), std::string::npos)
+  EXPECT_NE(output.text.find("2 × RTL: color: pixel_datapath.channel[].s2_word: RTL differs"),
+            std::string::npos)
       << output.text;
   EXPECT_NE(output.text.find("again  phongpipe verify sphere --rtl " + file("rtl")),
             std::string::npos)
