@@ -323,8 +323,13 @@ class Campaign {
   // The message then says how to see the divergence again.
   void keep_capsule(RunResult& result, const std::string& identity) const {
     const std::filesystem::path file = options_.failures / (identity + ".toml");
-    std::filesystem::create_directories(options_.failures);
-    write_text(file, result.capsule);
+    try {
+      std::filesystem::create_directories(options_.failures);
+      write_text(file, result.capsule);
+    } catch (const std::exception& error) {
+      result.message += fmt::format("; its capsule is not kept: {}", error.what());
+      return;
+    }
     result.message += "; again by phongpipe replay " + shell_word(file.string());
     const std::filesystem::path& rtl = runs_.front().request.options.rtl_sources;
     if (!rtl.empty()) result.message += " --rtl " + shell_word(rtl.string());

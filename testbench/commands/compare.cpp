@@ -15,7 +15,7 @@
 namespace phongpipe {
 namespace {
 
-struct Options {
+struct CompareCommandOptions {
   std::vector<std::string> scenes;
   HardwareOptions hardware;
   std::string curve;
@@ -30,7 +30,7 @@ struct NamedCurve {
   Curve curve;
 };
 
-std::vector<NamedCurve> draw_curves(const Options& options, const CurveOptions& how) {
+std::vector<NamedCurve> draw_curves(const CompareCommandOptions& options, const CurveOptions& how) {
   constexpr double kShininess = 20;
   if (options.curve == "curvature") {
     return {{"curvature-diffuse", curvature_curve(Parts::diffuse, kShininess, how)},
@@ -44,7 +44,7 @@ std::vector<NamedCurve> draw_curves(const Options& options, const CurveOptions& 
           {"size", size_curve(Parts::full, PowerKind::table, on_units, how)}};
 }
 
-void write_curves(const Options& options, Progress& progress) {
+void write_curves(const CompareCommandOptions& options, Progress& progress) {
   CurveOptions how;
   how.progress = [&progress](const std::string& what) { progress(what); };
   const std::vector<NamedCurve> curves = draw_curves(options, how);
@@ -59,7 +59,7 @@ void write_curves(const Options& options, Progress& progress) {
 }
 
 // The command that renders a scene with the same hardware.
-std::string render_command(const Options& options, const std::string& scene) {
+std::string render_command(const CompareCommandOptions& options, const std::string& scene) {
   std::string text = "phongpipe render " + shell_word(scene);
   const HardwareOptions& hardware = options.hardware;
   if (hardware.hardware != HardwareOptions().hardware) {
@@ -70,7 +70,7 @@ std::string render_command(const Options& options, const std::string& scene) {
   return text;
 }
 
-int compare_methods(const Options& options) {
+int compare_methods(const CompareCommandOptions& options) {
   if (options.scenes.empty() && options.curve.empty() && !options.microvax) {
     throw InputError("nothing to compare: give scenes, --curve NAME or --microvax");
   }
@@ -109,7 +109,7 @@ int compare_methods(const Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& application, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompareCommandOptions>();
   CLI::App* command = application.add_subcommand(
       "compare", "Compare all shading methods: operations, time and accuracy");
   command->add_option("scenes", options->scenes, "Scene files, or names of shipped scenes")

@@ -11,7 +11,7 @@
 namespace phongpipe {
 namespace {
 
-struct Options {
+struct DiffTracesCommandOptions {
   std::filesystem::path a, b;
 };
 
@@ -48,7 +48,7 @@ std::string comparison_text(const TraceComparison& c) {
   return text;
 }
 
-int compare_traces(const Options& options) {
+int compare_traces(const DiffTracesCommandOptions& options) {
   const TraceDiff diff = diff_traces(options.a, options.b);
   std::string text;
   for (const TraceComparison& comparison : diff.comparisons) text += comparison_text(comparison);
@@ -66,7 +66,7 @@ int compare_traces(const Options& options) {
 }  // namespace
 
 void add_diff_traces(CLI::App& application, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiffTracesCommandOptions>();
   CLI::App* command = application.add_subcommand(
       "diff-traces",
       "Compare two waveforms pixel by pixel, and name the first signal that differs");

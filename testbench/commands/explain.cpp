@@ -13,13 +13,13 @@
 namespace phongpipe {
 namespace {
 
-struct Options {
+struct ExplainCommandOptions {
   std::string scene, pixel, json;
   bool worst = false;
   HardwareOptions hardware;
 };
 
-int explain(const Options& options) {
+int explain(const ExplainCommandOptions& options) {
   if (options.pixel.empty() != options.worst) {
     throw InputError("which pixel? Give --pixel X,Y or --worst");
   }
@@ -48,7 +48,7 @@ int explain(const Options& options) {
 }  // namespace
 
 void add_explain(CLI::App& application, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExplainCommandOptions>();
   CLI::App* command = application.add_subcommand(
       "explain", "The life of one pixel, and where its error comes from");
   command->add_option("scene", options->scene, "Scene file, or name of a shipped scene")

@@ -15,7 +15,7 @@
 namespace phongpipe {
 namespace {
 
-struct Options {
+struct RegressCommandOptions {
   std::vector<std::string> inputs;  // see PlanOptions
   bool random = false;
   std::uint64_t count = 0;
@@ -35,7 +35,7 @@ Plan smoke_plan() {
   return plan;
 }
 
-int random_regression(Options& options) {
+int random_regression(RegressCommandOptions& options) {
   if (options.count == 0 && options.minutes == 0) options.count = 100;
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   const std::uint64_t seed =
@@ -44,14 +44,14 @@ int random_regression(Options& options) {
   return options.campaign.run_random(seed, options.count, 60 * options.minutes);
 }
 
-int listed_regression(Options& options) {
+int listed_regression(RegressCommandOptions& options) {
   if (options.inputs.empty()) return options.campaign.run(smoke_plan());
   PlanOptions plan;
   plan.inputs = options.inputs;
   return options.campaign.run(plan.plan());
 }
 
-int regress(Options& options) {
+int regress(RegressCommandOptions& options) {
   if (options.random && !options.inputs.empty()) {
     throw InputError("--random draws its scenes itself: give no scenes");
   }
@@ -69,7 +69,7 @@ int regress(Options& options) {
 }  // namespace
 
 void add_regress(CLI::App& application, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RegressCommandOptions>();
   options->campaign.kind = "regress";
   CLI::App* command = application.add_subcommand(
       "regress", "Verify many scenes and settings, from a list or at random");

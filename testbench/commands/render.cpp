@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 enum class Arithmetic { real, fixed };
 
-struct Options {
+struct RenderCommandOptions {
   std::string scene;
   fs::path output, triangles;
   HardwareOptions hardware;
@@ -45,7 +45,7 @@ const ShadingMethod& find_method(const std::string& name) {
 }
 
 // The hardware, with the series of the method that was asked for.
-Hardware hardware_of(const Options& options) {
+Hardware hardware_of(const RenderCommandOptions& options) {
   Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
   if (!options.method) return hardware;
   std::string_view name = *options.method;
@@ -63,7 +63,7 @@ Hardware hardware_of(const Options& options) {
   return hardware;
 }
 
-void check(const Options& options, Arithmetic arithmetic) {
+void check(const RenderCommandOptions& options, Arithmetic arithmetic) {
   if (arithmetic == Arithmetic::fixed && options.power) {
     throw InputError(
         "the hardware has a table of its own, see rom_address_bits; use --power with --arithmetic "
@@ -83,7 +83,7 @@ void check(const Options& options, Arithmetic arithmetic) {
 }
 
 // The bits of the hardware, as colours in LSB.
-std::vector<Color> render_fixed(const Options& options, const Scene& scene) {
+std::vector<Color> render_fixed(const RenderCommandOptions& options, const Scene& scene) {
   const Hardware hardware = hardware_of(options);
   const PreparedFrame frame(scene, hardware.formats, hardware.setup);
   const ModelFrame model = run_model(frame.setup);
@@ -94,7 +94,8 @@ std::vector<Color> render_fixed(const Options& options, const Scene& scene) {
   return in_lsb(model.colors(), frame.setup.configuration.channels);
 }
 
-std::vector<Color> render_real(const Options& options, const Scene& scene, const Geometry& whole) {
+std::vector<Color> render_real(const RenderCommandOptions& options, const Scene& scene,
+                               const Geometry& whole) {
   const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
   const ShadingMethod& method =
       find_method(options.method ? *options.method : method_of(hardware, scene));
@@ -112,7 +113,7 @@ std::vector<Color> render_real(const Options& options, const Scene& scene, const
       .colors;
 }
 
-int render(const Options& options) {
+int render(const RenderCommandOptions& options) {
   const Arithmetic arithmetic =
       options.arithmetic.value_or(options.method ? Arithmetic::real : Arithmetic::fixed);
   check(options, arithmetic);
@@ -149,7 +150,7 @@ std::string list_methods() {
 }  // namespace
 
 void add_render(CLI::App& application, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RenderCommandOptions>();
   CLI::App* command = application.add_subcommand("render", "Render one picture by one method");
   command->add_option("scene", options->scene, "Scene file, or name of a shipped scene")
       ->required()

@@ -14,13 +14,13 @@
 namespace phongpipe {
 namespace {
 
-struct Options {
+struct ReplayCommandOptions {
   std::filesystem::path capsule, rtl_sources;
   std::string json;
   bool anyway = false;
 };
 
-int replay(const Options& options) {
+int replay(const ReplayCommandOptions& options) {
   Capsule capsule = read_capsule(options.capsule, options.anyway);
   capsule.options.rtl_sources = options.rtl_sources;
   if (rtl_hash(options.rtl_sources) != capsule.rtl_hash && !options.anyway) {
@@ -50,7 +50,7 @@ int replay(const Options& options) {
 }  // namespace
 
 void add_replay(CLI::App& application, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReplayCommandOptions>();
   CLI::App* command =
       application.add_subcommand("replay", "Show the divergence of a capsule again");
   command->add_option("capsule", options->capsule, "File that verify or regress has written")

@@ -10,12 +10,12 @@
 namespace phongpipe {
 namespace {
 
-struct Options {
+struct SweepCommandOptions {
   PlanOptions plan;
   CampaignCommand campaign;
 };
 
-int sweep(Options& options) {
+int sweep(SweepCommandOptions& options) {
   const Plan plan = options.plan.plan();
   if (grid_size(plan) == 1) {
     throw InputError("nothing varies: give --vary KEY=LIST, several scenes, or a sweep file");
@@ -30,7 +30,7 @@ int sweep(Options& options) {
 }  // namespace
 
 void add_sweep(CLI::App& application, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SweepCommandOptions>();
   options->campaign.kind = "sweep";
   CLI::App* command = application.add_subcommand(
       "sweep", "Vary settings; record accuracy against time, verified in RTL");

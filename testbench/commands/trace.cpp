@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct TraceCommandOptions {
   std::string scene;
   HardwareOptions hardware;
   std::vector<std::string> pixels;
@@ -41,7 +41,7 @@ CycleWindow parse_cycles(const std::string& text) {
   throw InputError(fmt::format("--cycles {}: write A:B, the first and the last cycle", text));
 }
 
-TraceTarget target_of(const Options& options, const PreparedFrame& frame) {
+TraceTarget target_of(const TraceCommandOptions& options, const PreparedFrame& frame) {
   TraceTarget target;
   target.margin_cycles = options.margin;
   std::optional<ModelFrame> model;
@@ -83,8 +83,8 @@ std::int64_t cycles_in(const std::vector<CycleWindow>& windows) {
 }
 
 // Long traces are announced by what a piece from their middle takes.
-void announce_size(const Options& options, const PreparedFrame& frame, const Hardware& hardware,
-                   const RtlLibrary& library, const TraceTarget& target,
+void announce_size(const TraceCommandOptions& options, const PreparedFrame& frame,
+                   const Hardware& hardware, const RtlLibrary& library, const TraceTarget& target,
                    const std::vector<CycleWindow>& windows) {
   constexpr std::int64_t kPiece = 2000, kLong = 50'000;
   constexpr double kAskFrom = 1e9;
@@ -111,7 +111,7 @@ void announce_size(const Options& options, const PreparedFrame& frame, const Har
   }
 }
 
-int trace(const Options& options) {
+int trace(const TraceCommandOptions& options) {
   const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
   const PreparedFrame frame(load_named_scene(options.scene, options.hardware.overrides),
                             hardware.formats, hardware.setup);
@@ -172,7 +172,7 @@ int trace(const Options& options) {
 }  // namespace
 
 void add_trace(CLI::App& application, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TraceCommandOptions>();
   CLI::App* command = application.add_subcommand(
       "trace", "Record a window of the waveforms of RTL and SystemC, with views of it");
   command->add_option("scene", options->scene, "Scene file, or name of a shipped scene")

@@ -18,7 +18,7 @@
 namespace phongpipe {
 namespace {
 
-struct Options {
+struct VerifyCommandOptions {
   std::vector<std::string> scenes;
   HardwareOptions hardware;
   VerificationOptions verification;
@@ -44,7 +44,7 @@ std::vector<std::string> picture_names(const std::vector<std::string>& scenes) {
 
 class Verifier {
  public:
-  explicit Verifier(const Options& options)
+  explicit Verifier(const VerifyCommandOptions& options)
       : options_(options),
         hardware_(load_hardware(options.hardware.hardware, options.hardware.overrides)),
         names_(picture_names(options.scenes)) {}
@@ -81,7 +81,7 @@ class Verifier {
         write_timeline(record_timeline(prepared, hardware_, options_.verification), scene.source);
       }
       if (!result.agrees()) show_step("tracing what differs");
-      const FailureFiles failure = write_failure(prepared, result, failure_folder(), name);
+      const FailureFiles failure = keep_failure(prepared, result, name);
       progress_.clear();
       show(scene, result, name, failure);
       if (!options_.pictures.empty()) {
@@ -101,6 +101,18 @@ class Verifier {
       if (input) page_.add_refused(request_of(scene), error.what());
       results_.push_back(
           {{"scene", scene.source}, {"passed", false}, {"error", printable(error.what())}});
+    }
+  }
+
+  // That it cannot be written does not keep the report from its reader.
+  FailureFiles keep_failure(const std::shared_ptr<const PreparedScene>& scene,
+                            const VerificationResult& result, const std::string& name) const {
+    try {
+      return write_failure(scene, result, failure_folder(), name);
+    } catch (const std::exception& error) {
+      tell(fmt::format("phongpipe: the failure is not kept: {}; --out names another folder",
+                       printable(error.what())));
+      return {};
     }
   }
 
@@ -178,7 +190,7 @@ class Verifier {
     return (results_.size() == 1 ? results_.front() : results_).dump(2) + "\n";
   }
 
-  const Options& options_;
+  const VerifyCommandOptions& options_;
   Hardware hardware_;
   std::vector<std::string> names_;
   Progress progress_;
@@ -197,7 +209,7 @@ void add_run_option(CLI::App& command, const RunOption& option, VerificationOpti
       ->default_str(option.get(options));
 }
 
-int verify_scenes(Options options) {
+int verify_scenes(VerifyCommandOptions options) {
   options.verification.pictures = !options.pictures.empty();
   if (!options.timeline.empty()) {
     if (options.timeline.extension() != ".json") {
@@ -212,7 +224,7 @@ int verify_scenes(Options options) {
 }  // namespace
 
 void add_verify(CLI::App& application, Run& run) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<VerifyCommandOptions>();
   CLI::App* command = application.add_subcommand(
       "verify", "Compute every pixel three ways, compare them, and check the time budget");
   command->add_option("scenes", options->scenes, "Scene files, or names of shipped scenes")

@@ -20,9 +20,8 @@ std::int64_t cycle_of(const VerificationResult& r) {
 
 void write_trace(const std::shared_ptr<const PreparedScene>& scene, const VerificationResult& r,
                  const fs::path& file) {
-  const Effects effects =
-      r.options.effects == EffectsToVerify::all ? Effects::all : Effects::derived;
-  const PreparedFrame frame(scene, r.hardware.formats, r.hardware.setup, effects);
+  const PreparedFrame frame(scene, r.hardware.formats, r.hardware.setup,
+                            simulated_effects(r.options));
   RtlBuildOptions build;
   build.build = RtlBuild::signals;
   build.sources = r.options.rtl_sources;

@@ -75,6 +75,12 @@ TEST_F(TraceProgram, AFaultIsNamedTracedAndReplayed) {
   EXPECT_EQ(run({"diff-traces", file("out/sphere.fst"), file("out/sphere.fst")}).status, 1)
       << "RTL and SystemC differ there";
 
+  const ProcessOutput unwritable =
+      run_process({"sh", "-c", PHONGPIPE_PROGRAM " verify sphere --rtl " + rtl}, "/proc/self");
+  EXPECT_EQ(unwritable.status, 1) << "the report comes all the same";
+  EXPECT_NE(unwritable.text.find("the failure is not kept"), std::string::npos) << unwritable.text;
+  EXPECT_NE(unwritable.text.find("FAILED sphere"), std::string::npos) << unwritable.text;
+
   const ProcessOutput replay = run({"replay", capsule, "--rtl", rtl});
   EXPECT_EQ(replay.status, 1) << replay.text;
   EXPECT_NE(replay.text.find("the same divergence as recorded"), std::string::npos) << replay.text;
