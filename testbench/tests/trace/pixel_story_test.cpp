@@ -190,9 +190,15 @@ TEST(PixelStory, AgreesWithThePictureForRandomPixels) {
           return name.size() >= end.size() && name.substr(name.size() - end.size()) == end;
         };
         stages.insert(value.signal.stage);
-        if (ends("_valid")) EXPECT_EQ(value.bits, 1) << name;
-        if (ends("_x")) EXPECT_EQ(value.bits, pixel.x) << name;
-        if (ends("_y")) EXPECT_EQ(value.bits, pixel.y) << name;
+        if (ends("_valid")) {
+          EXPECT_EQ(value.bits, 1) << name;
+        }
+        if (ends("_x")) {
+          EXPECT_EQ(value.bits, pixel.x) << name;
+        }
+        if (ends("_y")) {
+          EXPECT_EQ(value.bits, pixel.y) << name;
+        }
         if (name == "fd_remaining") {
           EXPECT_EQ(value.bits, light.span->row.length - light.span->step);
         }
