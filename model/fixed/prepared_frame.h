@@ -13,7 +13,7 @@ namespace phongpipe {
 // A geometry whose triangles were subdivided, and what is known of it.
 struct SubdividedGeometry {
   Subdivision subdivision;
-  std::unique_ptr<GeometryMemo> memo;
+  std::unique_ptr<GeometryMemo> memo;  // or null
 };
 
 // A scene with its triangles on the screen.
@@ -22,7 +22,10 @@ class PreparedScene {
   const Scene scene;
   const Geometry geometry;  // not subdivided
 
-  explicit PreparedScene(Scene scene_) : scene(std::move(scene_)), geometry(make_geometry(scene)) {}
+  // `many_frames`: what frames have in common is kept for the next ones, which costs a single one
+  // more than it saves.
+  explicit PreparedScene(Scene scene_, bool many_frames = false)
+      : scene(std::move(scene_)), geometry(make_geometry(scene)), many_frames_(many_frames) {}
 
   // Keeps the last one for frames that ask for the same. One thread at a time may call it, and use
   // what it returns.
@@ -30,8 +33,10 @@ class PreparedScene {
     if (!last_ || subdivide_degrees != last_degrees_) {
       auto fresh = std::make_shared<SubdividedGeometry>();
       fresh->subdivision = subdivide(scene, geometry, subdivide_degrees);
-      fresh->memo = std::make_unique<GeometryMemo>(fresh->subdivision.geometry.triangles.size(),
-                                                   scene.lights.size());
+      if (many_frames_) {
+        fresh->memo = std::make_unique<GeometryMemo>(fresh->subdivision.geometry.triangles.size(),
+                                                     scene.lights.size());
+      }
       last_ = std::move(fresh);
       last_degrees_ = subdivide_degrees;
     }
@@ -41,6 +46,7 @@ class PreparedScene {
  private:
   mutable std::shared_ptr<const SubdividedGeometry> last_;
   mutable int last_degrees_ = 0;
+  bool many_frames_;
 };
 
 // All data of a frame before its first triangle is set up. `setup` refers to the other members, so

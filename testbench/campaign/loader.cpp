@@ -39,7 +39,7 @@ Hardware Loader::hardware(const RunRequest& request) {
 std::shared_ptr<const PreparedScene> Loader::prepared(const LoadedScene& scene) {
   last_ = scene.prepared.lock();
   if (!last_) {
-    last_ = std::make_shared<const PreparedScene>(scene.scene);
+    last_ = std::make_shared<const PreparedScene>(scene.scene, true);
     scene.prepared = last_;
   }
   return last_;

@@ -19,7 +19,7 @@ TEST(GeometryMemo, FramesOfOneSceneAreAsIfEachWereAlone) {
   std::size_t compared = 0;
   for (std::uint64_t s = 0; s < kScenes; ++s) {
     const Scene scene = load_named_scene(random_run(kSeed, s).scene, {});
-    const auto shared = std::make_shared<const PreparedScene>(scene);
+    const auto shared = std::make_shared<const PreparedScene>(scene, true);
     for (std::uint64_t f = 0; f < kFrames; ++f) {
       SCOPED_TRACE(testing::Message() << "scene " << s << ", hardware " << f);
       const RunRequest request = random_run(kSeed, s * kFrames + f);
