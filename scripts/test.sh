@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds everything and runs all tests.
+# Installs what is missing, builds the program and its tests, and runs them all.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install.sh
-scripts/build.sh build all -DCMAKE_BUILD_TYPE=Release
+scripts/build.sh build all_tests -DCMAKE_BUILD_TYPE=Release
 ctest --test-dir build --output-on-failure --progress -j "$(nproc)" "$@"
