@@ -199,10 +199,12 @@ void add_trace(CLI::App& application, Run& run) {
       ->capture_default_str()
       ->type_name("CYCLES")
       ->check(CLI::Range(0, 1'000'000).description(""));
-  command->add_option("--stall", options->trace.stall_percent, "Back-pressure, as in verify")
+  command
+      ->add_option("--stall", options->trace.simulation.stall_percent,
+                   "Back-pressure, as in verify")
       ->type_name("0-100")
       ->check(CLI::Range(0, 100).description(""));
-  command->add_option("--seed", options->trace.seed, "Of the back-pressure")
+  command->add_option("--seed", options->trace.simulation.stall_seed, "Of the back-pressure")
       ->capture_default_str()
       ->type_name("N");
   command->add_option("--rtl", options->rtl_sources, "Folder of the RTL, if not the installed")

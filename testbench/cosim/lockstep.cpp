@@ -129,14 +129,14 @@ DatapathOutputs Lockstep::clock(const DatapathInputs& inputs) {
   return rtl;
 }
 
-std::optional<SignalDivergence> find_signal_divergence(const FrameSetup& frame,
-                                                       const PipelineConfiguration& pipeline,
-                                                       const SimulationOptions& simulation,
-                                                       const RtlLibrary& library,
-                                                       std::optional<std::uint64_t> stream_index) {
+std::optional<SignalDivergence> find_signal_divergence(
+    const FrameSetup& frame, const PipelineConfiguration& pipeline,
+    const SimulationOptions& simulation,
+    const std::function<std::unique_ptr<RtlDatapath>()>& make_rtl,
+    std::optional<std::uint64_t> stream_index) {
   Child child([&] {
-    RtlDatapath rtl(library, frame.cue_color);
-    Lockstep lockstep(frame.configuration, frame.cue_color, rtl, stream_index);
+    const std::unique_ptr<RtlDatapath> rtl = make_rtl();
+    Lockstep lockstep(frame.configuration, frame.cue_color, *rtl, stream_index);
     SimulationOptions options = simulation;
     options.detail = Detail::cycle;  // its clocks are the frame's cycles
     options.datapath = &lockstep;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,12 +79,11 @@ class Lockstep : public ClockedDatapath {
   std::map<std::uint64_t, SignalDivergence> differences_;
 };
 
-// Simulates the frame with the RTL of `library`, which was built with signals, in lockstep with the
-// model, in a child process. `options`: those of the simulation that differed.
-std::optional<SignalDivergence> find_signal_divergence(const FrameSetup& frame,
-                                                       const PipelineConfiguration& pipeline,
-                                                       const SimulationOptions& options,
-                                                       const RtlLibrary& library,
-                                                       std::optional<std::uint64_t> stream_index);
+// Simulates the frame in lockstep with the model, in a child process. `make_rtl`: creates the RTL,
+// which was built with signals. `options`: those of the simulation that differed.
+std::optional<SignalDivergence> find_signal_divergence(
+    const FrameSetup& frame, const PipelineConfiguration& pipeline,
+    const SimulationOptions& options, const std::function<std::unique_ptr<RtlDatapath>()>& make_rtl,
+    std::optional<std::uint64_t> stream_index);
 
 }  // namespace phongpipe

@@ -92,8 +92,9 @@ class Implementation {
       const RtlLibrary with_signals(frame_.configuration, build);
       std::optional<std::uint64_t> index;
       if (result.first_divergence) index = result.first_divergence->stream_index;
-      result.signal_divergence =
-          find_signal_divergence(frame_, pipeline_, options_, with_signals, index);
+      result.signal_divergence = find_signal_divergence(
+          frame_, pipeline_, options_,
+          [&] { return std::make_unique<RtlDatapath>(with_signals, frame_.cue_color); }, index);
     } catch (const ToolError&) {
       // The pixel is known all the same.
     }

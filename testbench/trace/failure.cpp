@@ -30,8 +30,7 @@ void write_trace(const std::shared_ptr<const PreparedScene>& scene, const Verifi
   const std::int64_t cycle = cycle_of(r);
   const CycleWindow window = {std::max<std::int64_t>(cycle - kMargin, 0), cycle + kMargin};
   TraceOptions options;
-  options.stall_percent = r.options.stall_percent;
-  options.seed = r.options.seed;
+  options.simulation = simulation_options(r.options);
   options.rtl_drives = true;
   RecordedTrace trace =
       record_trace(frame, r.hardware, library, {window}, TraceTarget(), options, file);

@@ -361,13 +361,6 @@ class TracedDatapath : public ClockedDatapath {
   std::vector<TraceMarker> markers_;
 };
 
-SimulationOptions simulation_options(const TraceOptions& options) {
-  SimulationOptions simulation;
-  simulation.stall_percent = options.stall_percent;
-  simulation.stall_seed = options.seed;
-  return simulation;
-}
-
 // Sorts windows, cuts them to the frame, and joins those that touch.
 std::vector<CycleWindow> joined(std::vector<CycleWindow> windows, std::int64_t frame_cycles) {
   std::sort(windows.begin(), windows.end(),
@@ -398,7 +391,6 @@ class WindowFinder {
       ++span_;
     }
     --left_in_span_;
-    last_span_ = span_;
     const std::array<int, 2> place = {pixel.x, pixel.y};
     const auto& pixels = target_.pixels;
     const CycleWindow window = {cycle - latency - target_.margin_cycles,
@@ -413,14 +405,14 @@ class WindowFinder {
   }
 
   const std::vector<CycleWindow>& windows() const { return windows_; }
-  std::int64_t last_span() const { return last_span_; }
+  std::int64_t last_span() const { return span_; }
 
  private:
   const TraceTarget& target_;
   const std::vector<std::uint32_t>& whole_;
   SpanStream spans_;
   int left_in_span_ = 0;
-  std::int64_t span_ = -1, last_span_ = -1;
+  std::int64_t span_ = -1;
   std::vector<CycleWindow> windows_;
 };
 
@@ -450,7 +442,7 @@ class WindowFinder {
 std::vector<CycleWindow> find_windows(const PreparedFrame& frame, const Hardware& hardware,
                                       const TraceTarget& target, const TraceOptions& options) {
   Child child([&] {
-    SimulationOptions simulation = simulation_options(options);
+    SimulationOptions simulation = options.simulation;
     WindowFinder finder(frame, target);
     const int latency = frame.setup.configuration.latency_cycles();
     simulation.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles,
@@ -486,7 +478,7 @@ RecordedTrace record_trace(const PreparedFrame& frame, const Hardware& hardware,
     ActivityRecorder activity(0);
     TracedDatapath datapath(frame.setup, library, windows, target, options, activity, file, period);
     StreamHash hash;
-    SimulationOptions simulation = simulation_options(options);
+    SimulationOptions simulation = options.simulation;
     simulation.detail = Detail::cycle;
     simulation.datapath = &datapath;
     simulation.activity = &activity;

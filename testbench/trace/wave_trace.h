@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/fixed/prepared_frame.h"
+#include "sim/pipeline.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/trace/wave_file.h"
@@ -36,8 +37,7 @@ struct TraceTarget {
 };
 
 struct TraceOptions {
-  int stall_percent = 0;
-  std::uint32_t seed = 1;
+  SimulationOptions simulation;  // back-pressure
   // Whether the RTL answers to the other modules, as when it is verified, or only follows SystemC.
   bool rtl_drives = false;
 };

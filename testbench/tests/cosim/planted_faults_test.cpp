@@ -74,18 +74,10 @@ class PlantedFaults : public testing::Test {
     return nlohmann::json::parse(child.get()).get<std::optional<Divergence>>();
   }
   std::optional<SignalDivergence> first_signal(const Fault& fault, std::uint64_t stream_index) {
-    Child child([&] {
-      FaultyRtl rtl(library_, frame_.setup.cue_color, fault);
-      const FrameSetup& frame = frame_.setup;
-      Lockstep lockstep(frame.configuration, frame.cue_color, rtl, stream_index);
-      SimulationOptions options = limited();
-      options.detail = Detail::cycle;
-      options.datapath = &lockstep;
-      options.observe = [](const ShadedPixel*, const std::int64_t*, std::size_t) {};
-      simulate(frame, hardware_.pipeline, options);
-      return nlohmann::json(lockstep.found()).dump();
-    });
-    return nlohmann::json::parse(child.get()).get<std::optional<SignalDivergence>>();
+    return find_signal_divergence(
+        frame_.setup, hardware_.pipeline, limited(),
+        [&] { return std::make_unique<FaultyRtl>(library_, frame_.setup.cue_color, fault); },
+        stream_index);
   }
   static SimulationOptions limited() {
     SimulationOptions options;

@@ -130,14 +130,12 @@ TEST_F(Traces, ManyWindowsAreOneFile) {
 
 TEST_F(Traces, TracingChangesNothing) {
   TraceOptions options;
-  options.stall_percent = 30;
-  options.seed = 5;
+  options.simulation.stall_percent = 30;
+  options.simulation.stall_seed = 5;
   const RecordedTrace trace = record(pixel(30, 31), "a.fst", options);
   Child child([&] {
     StreamHash hash;
-    SimulationOptions simulation;
-    simulation.stall_percent = options.stall_percent;
-    simulation.stall_seed = options.seed;
+    SimulationOptions simulation = options.simulation;
     simulation.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles,
                              std::size_t count) { hash.add(pixels, cycles, count); };
     const SimulationResult result = simulate(frame_.setup, hardware_.pipeline, simulation);
