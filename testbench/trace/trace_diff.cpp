@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
-#include <set>
 
 #include "model/scene/input_error.h"
 #include "sim/datapath_registers.h"
@@ -52,8 +52,10 @@ class Follower {
 
   const std::string& scope() const { return scope_; }
   void add(const std::string& name, std::size_t variable, int width) {
-    widths_[name] = width;
     variables_[name] = variable;
+    const auto known = stages_of_signals().find(name);
+    if (known == stages_of_signals().end()) return;
+    registers_[static_cast<std::size_t>(known->second)].push_back({name, variable, width});
   }
   const std::map<std::string, std::size_t>& variables() const { return variables_; }
   const std::vector<TracedPixel>& pixels() const { return pixels_; }
@@ -125,10 +127,8 @@ class Follower {
     TracedPixel& pixel = pixels_[*held];
     if (pixel.ps[index(stage)] != 0) return;
     pixel.ps[index(stage)] = ps;
-    for (const auto& [name, variable] : variables_) {
-      const auto known = stages_of_signals().find(name);
-      if (known == stages_of_signals().end() || static_cast<int>(known->second) != stage) continue;
-      pixel.signals[name] = padded(values[variable], widths_.at(name));
+    for (const auto& [name, variable, width] : registers_[index(stage)]) {
+      pixel.signals[name] = padded(values[variable], width);
     }
   }
   // VCD leaves out leading zeros.
@@ -141,7 +141,12 @@ class Follower {
 
   std::string scope_;
   std::map<std::string, std::size_t> variables_;  // by full name
-  std::map<std::string, int> widths_;
+  struct Register {
+    std::string name;
+    std::size_t variable;
+    int width;
+  };
+  std::array<std::vector<Register>, kStages> registers_;  // by the stage that they belong to
   std::array<std::optional<std::size_t>, kStages> held_{};
   std::vector<TracedPixel> pixels_;
   int clock_ = 0;
@@ -158,26 +163,26 @@ TraceContent read_trace(const std::filesystem::path& file) {
     std::size_t variable;
     std::string value;
   };
-  // The variables are known once the file was read: first the names, then the values.
-  const WaveReader names = WaveReader::read(file, [](auto...) {});
   TraceContent content;
-  content.complete = names.complete;
-  for (std::size_t i = 0; i < names.variables.size(); ++i) {
-    const WaveVariable& variable = names.variables[i];
-    const std::size_t at = variable.scope.find(kDatapath);
-    if (variable.real || at == std::string::npos) continue;
-    const std::string scope = at == 0 ? std::string() : variable.scope.substr(0, at - 1);
-    auto follower = std::find_if(content.followers.begin(), content.followers.end(),
-                                 [&](const Follower& f) { return f.scope() == scope; });
-    if (follower == content.followers.end()) {
-      follower = content.followers.insert(follower, Follower(scope));
+  std::vector<std::string> values;
+  const auto declare = [&](const std::vector<WaveVariable>& variables) {
+    values.resize(variables.size());
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      const WaveVariable& variable = variables[i];
+      const std::size_t at = variable.scope.find(kDatapath);
+      if (variable.real || at == std::string::npos) continue;
+      const std::string scope = at == 0 ? std::string() : variable.scope.substr(0, at - 1);
+      auto follower = std::find_if(content.followers.begin(), content.followers.end(),
+                                   [&](const Follower& f) { return f.scope() == scope; });
+      if (follower == content.followers.end()) {
+        follower = content.followers.insert(follower, Follower(scope));
+      }
+      follower->add(variable.scope.substr(at) + "." + variable.name, i, variable.width);
     }
-    follower->add(variable.scope.substr(at) + "." + variable.name, i, variable.width);
-  }
-  if (content.followers.empty()) {
-    throw InputError(fmt::format("{}: no scope pixel_datapath in it", printable(file.string())));
-  }
-  std::vector<std::string> values(names.variables.size());
+    if (content.followers.empty()) {
+      throw InputError(fmt::format("{}: no scope pixel_datapath in it", printable(file.string())));
+    }
+  };
   std::vector<Change> changes;  // of one time
   std::uint64_t now = 0;
   const auto apply = [&] {
@@ -191,13 +196,14 @@ TraceContent read_trace(const std::filesystem::path& file) {
     for (Change& change : changes) values[change.variable] = std::move(change.value);
     changes.clear();
   };
-  WaveReader::read(file, [&](std::uint64_t ps, std::size_t variable, const std::string& value) {
+  const auto visit = [&](std::uint64_t ps, std::size_t variable, const std::string& value) {
     if (ps != now) {
       apply();
       now = ps;
     }
     changes.push_back({variable, value});
-  });
+  };
+  content.complete = WaveReader::read(file, declare, visit).complete;
   apply();
   return content;
 }

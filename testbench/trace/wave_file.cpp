@@ -191,14 +191,16 @@ WaveVariable variable_of(const std::string& scope, const std::string& declared, 
 
 class VcdParser {
  public:
-  VcdParser(const std::string& text, WaveReader& reader, const WaveReader::Visit& visit)
-      : text_(text), reader_(reader), visit_(visit) {}
+  VcdParser(const std::string& text, WaveReader& reader, const WaveReader::Declare& declare,
+            const WaveReader::Visit& visit)
+      : text_(text), reader_(reader), declare_(declare), visit_(visit) {}
 
   // False if it is no VCD file.
   bool read() {
     for (std::string_view word; next(word);) {
       if (word == "$enddefinitions") {
         defined_ = skip_to_end();
+        declare_(reader_.variables);
       } else if (word == "$scope") {
         std::string_view type, name;
         if (!next(type) || !next(name) || !skip_to_end()) return false;
@@ -298,6 +300,7 @@ class VcdParser {
 
   const std::string& text_;
   WaveReader& reader_;
+  const WaveReader::Declare& declare_;
   const WaveReader::Visit& visit_;
   std::size_t at_ = 0;
   bool defined_ = false;
@@ -308,8 +311,10 @@ class VcdParser {
 };
 
 // False if it is no FST file.
-bool read_fst(const fs::path& file, WaveReader& reader, const WaveReader::Visit& visit) {
-  void* const fst = fstReaderOpen(file.c_str());
+bool read_fst(const fs::path& file, WaveReader& reader, const WaveReader::Declare& declare,
+              const WaveReader::Visit& visit) {
+  const std::unique_ptr<void, void (*)(void*)> reading(fstReaderOpen(file.c_str()), fstReaderClose);
+  void* const fst = reading.get();
   if (fst == nullptr) return false;
   std::vector<std::string> scopes;
   std::unordered_map<fstHandle, std::vector<std::size_t>> places;
@@ -327,6 +332,7 @@ bool read_fst(const fs::path& file, WaveReader& reader, const WaveReader::Visit&
                       static_cast<int>(item->u.var.length), item->u.var.typ == FST_VT_VCD_REAL));
     }
   }
+  declare(reader.variables);
   struct Context {
     const std::unordered_map<fstHandle, std::vector<std::size_t>>& places;
     const WaveReader::Visit& visit;
@@ -349,7 +355,6 @@ bool read_fst(const fs::path& file, WaveReader& reader, const WaveReader::Visit&
         }
       },
       &context, nullptr);
-  fstReaderClose(fst);
   return true;
 }
 
@@ -368,16 +373,16 @@ std::unique_ptr<WaveWriter> WaveWriter::open(const fs::path& file,
       fmt::format("{}: waveforms are written as .fst or .vcd", printable(file.string())));
 }
 
-WaveReader WaveReader::read(const fs::path& file, const Visit& visit) {
+WaveReader WaveReader::read(const fs::path& file, const Declare& declare, const Visit& visit) {
   WaveReader reader;
   const std::string text = read_whole_file(file);
   if (!text.empty() && text.front() == '\0') {
-    if (read_fst(file, reader, visit)) return reader;
+    if (read_fst(file, reader, declare, visit)) return reader;
     throw InputError(fmt::format(
         "{}: an FST file that is damaged or was cut; of VCD files, also the beginning can be read",
         printable(file.string())));
   }
-  if (!VcdParser(text, reader, visit).read()) {
+  if (!VcdParser(text, reader, declare, visit).read()) {
     throw InputError(fmt::format("{}: no VCD or FST file", printable(file.string())));
   }
   return reader;

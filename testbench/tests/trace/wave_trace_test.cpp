@@ -69,10 +69,12 @@ class Traces : public testing::Test {
 // All values of a variable with their times.
 std::map<std::uint64_t, std::string> values_of(const fs::path& file, const std::string& name) {
   std::map<std::uint64_t, std::string> values;
-  const WaveReader names = WaveReader::read(file, [](auto...) {});
-  WaveReader::read(file, [&](std::uint64_t ps, std::size_t index, const std::string& value) {
-    if (names.variables[index].full_name() == name) values[ps] = value;
-  });
+  std::vector<WaveVariable> variables;
+  WaveReader::read(
+      file, [&](const std::vector<WaveVariable>& declared) { variables = declared; },
+      [&](std::uint64_t ps, std::size_t index, const std::string& value) {
+        if (variables[index].full_name() == name) values[ps] = value;
+      });
   return values;
 }
 
@@ -147,7 +149,8 @@ TEST_F(Traces, TracingChangesNothing) {
 
 TEST_F(Traces, ViewsNameOnlyWhatIsThere) {
   const RecordedTrace trace = record(pixel(30, 31), "a.fst");
-  const WaveReader file = WaveReader::read(folder_ / "a.fst", [](auto...) {});
+  const WaveReader file = WaveReader::read(
+      folder_ / "a.fst", [](auto...) {}, [](auto...) {});
   std::set<std::string> names, declared;
   for (const WaveVariable& variable : file.variables) names.insert(variable.full_name());
   for (const WaveVariable& variable : trace.variables) {
