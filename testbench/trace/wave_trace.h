@@ -1,46 +1,18 @@
 // Waveforms of RTL and SystemC, side by side, of windows of a frame.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "model/fixed/prepared_frame.h"
-#include "sim/pipeline.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/rtl/rtl_library.h"
+#include "testbench/trace/trace_window.h"
 #include "testbench/trace/wave_file.h"
 
 namespace phongpipe {
-
-// Cycles of the frame, both included.
-struct CycleWindow {
-  std::int64_t first = 0, last = 0;
-
-  static constexpr auto fields() {
-    return std::make_tuple(field("first", &CycleWindow::first), field("last", &CycleWindow::last));
-  }
-};
-
-// What to record. Exactly one of `pixels`, `triangle`, `span`, `cycles` and `frame` is set.
-struct TraceTarget {
-  std::vector<std::array<int, 2>> pixels;  // x, y; each time that one is shaded is a window
-  std::optional<std::uint32_t> triangle;   // of the scene
-  std::optional<std::uint64_t> span;       // counted from 0 as they enter pixel_datapath
-  std::optional<CycleWindow> cycles;
-  bool frame = false;
-  int margin_cycles = 32;  // before and after
-};
-
-struct TraceOptions {
-  SimulationOptions simulation;  // back-pressure
-  // Whether the RTL answers to the other modules, as when it is verified, or only follows SystemC.
-  bool rtl_drives = false;
-};
 
 // A moment of a trace, for markers in views.
 struct TraceMarker {
@@ -51,11 +23,6 @@ struct TraceMarker {
     return std::make_tuple(field("name", &TraceMarker::name), field("cycle", &TraceMarker::cycle));
   }
 };
-
-// The windows of the target, in the order of time; those that touch are one. Simulates the frame in
-// a child process. Throws InputError if the target is not there, and says what is.
-std::vector<CycleWindow> find_windows(const PreparedFrame& frame, const Hardware& hardware,
-                                      const TraceTarget& target, const TraceOptions& options);
 
 struct TraceSummary {
   std::vector<TraceMarker> markers;  // entrance and exit of the target's pixels
@@ -81,9 +48,5 @@ RecordedTrace record_trace(const PreparedFrame& frame, const Hardware& hardware,
                            const RtlLibrary& library, const std::vector<CycleWindow>& windows,
                            const TraceTarget& target, const TraceOptions& options,
                            const std::filesystem::path& file);
-
-// The variables of every trace of this hardware, in the order of the file.
-std::vector<WaveVariable> trace_variables(const DatapathConfiguration& configuration,
-                                          const RtlLibrary& library);
 
 }  // namespace phongpipe
