@@ -68,6 +68,36 @@ TriangleCoefficients<double> values(const TriangleCoefficients<Rounded>& t) {
           values(t.cue_factor)};
 }
 
+// Both compute the unrounded coefficients. `leave_out` is called with the bounds of the series, and
+// may remove series from the plan. In double, only what is not known of the triangle is computed.
+template <typename LeaveOut>
+TriangleCoefficients<double> compute_in_double(SeriesPlan& plan, const LightInput<double>& light,
+                                               const TriangleInput<double>& vertices,
+                                               GeometryMemo::Series& known,
+                                               const LeaveOut& leave_out) {
+  const TriangleBounds<double>& bounds =
+      known.bounds(vertices, plan, [&] { return bound_triangle(plan, vertices, light); });
+  leave_out(bounds.light, bounds.highlight);
+  const Interpolator<double> interpolate(vertices.x, vertices.y);
+  const CosineSeries<double>& series = known.series(
+      plan, [&] { return cosine_series(plan, interpolate, vertices, light.terms, bounds); });
+  TriangleCoefficients<double> result = linear_coefficients(plan, interpolate, vertices);
+  scale_series(plan, light, series, result);
+  return result;
+}
+
+template <typename LeaveOut>
+TriangleCoefficients<double> compute_rounded(SeriesPlan& plan, const LightInput<double>& light,
+                                             const TriangleInput<double>& vertices,
+                                             int mantissa_bits, const LeaveOut& leave_out) {
+  const Rounded::Precision precision(mantissa_bits);
+  const TriangleInput<Rounded> rounded_vertices = in_rounded(vertices);
+  const LightInput<Rounded> rounded_light = in_rounded(light);
+  const TriangleBounds<Rounded> bounds = bound_triangle(plan, rounded_vertices, rounded_light);
+  leave_out(values(bounds.light), values(bounds.highlight));
+  return values(setup_triangle(plan, rounded_vertices, rounded_light, bounds));
+}
+
 }  // namespace
 
 SetupEngine::SetupEngine(const FrameSetup& frame) : frame_(&frame) {}
@@ -163,36 +193,6 @@ void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
   }
 }
 
-template <typename LeaveOut>
-TriangleCoefficients<double> SetupEngine::compute_in_double(SeriesPlan& plan,
-                                                            const LightInput<double>& light,
-                                                            const TriangleInput<double>& vertices,
-                                                            GeometryMemo::Series& known,
-                                                            const LeaveOut& leave_out) const {
-  const TriangleBounds<double>& bounds =
-      known.bounds(vertices, plan, [&] { return bound_triangle(plan, vertices, light); });
-  leave_out(bounds.light, bounds.highlight);
-  const Interpolator<double> interpolate(vertices.x, vertices.y);
-  const CosineSeries<double>& series = known.series(
-      plan, [&] { return cosine_series(plan, interpolate, vertices, light.terms, bounds); });
-  TriangleCoefficients<double> result = linear_coefficients(plan, interpolate, vertices);
-  scale_series(plan, light, series, result);
-  return result;
-}
-
-template <typename LeaveOut>
-TriangleCoefficients<double> SetupEngine::compute_rounded(SeriesPlan& plan,
-                                                          const LightInput<double>& light,
-                                                          const TriangleInput<double>& vertices,
-                                                          const LeaveOut& leave_out) const {
-  const Rounded::Precision precision(frame_->configuration.mantissa_bits);
-  const TriangleInput<Rounded> rounded_vertices = in_rounded(vertices);
-  const LightInput<Rounded> rounded_light = in_rounded(light);
-  const TriangleBounds<Rounded> bounds = bound_triangle(plan, rounded_vertices, rounded_light);
-  leave_out(values(bounds.light), values(bounds.highlight));
-  return values(setup_triangle(plan, rounded_vertices, rounded_light, bounds));
-}
-
 TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
                                   int longest_row) const {
   const FrameConfiguration& configuration = frame_->configuration;
@@ -214,7 +214,7 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
       configuration.mantissa_bits == kDoubleMantissaBits
           ? compute_in_double(plan, light, vertices, known(triangle, pass, alone).set_up,
                               leave_out_of_plan)
-          : compute_rounded(plan, light, vertices, leave_out_of_plan);
+          : compute_rounded(plan, light, vertices, configuration.mantissa_bits, leave_out_of_plan);
   setup.plan = plan;
   if (frame_->effects == Effects::all) {
     // The same numbers, at the cost of the whole computation.

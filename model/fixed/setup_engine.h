@@ -49,17 +49,6 @@ class SetupEngine {
   // The material's plan, with constant series if all normals are equal.
   SeriesPlan simplified_plan(const MaterialSetup& material,
                              const TriangleInput<double>& vertices) const;
-  // Both compute the unrounded coefficients; `leave_out` removes series from the plan by their
-  // bounds. In double, only what is not known of the triangle is computed.
-  template <typename LeaveOut>
-  TriangleCoefficients<double> compute_in_double(SeriesPlan& plan, const LightInput<double>& light,
-                                                 const TriangleInput<double>& vertices,
-                                                 GeometryMemo::Series& known,
-                                                 const LeaveOut& leave_out) const;
-  template <typename LeaveOut>
-  TriangleCoefficients<double> compute_rounded(SeriesPlan& plan, const LightInput<double>& light,
-                                               const TriangleInput<double>& vertices,
-                                               const LeaveOut& leave_out) const;
   // Removes series that provably change no pixel.
   void leave_out(SeriesPlan& plan, const MaterialSetup& material,
                  const TriangleInput<double>& vertices, const SeriesRange<double>& light,

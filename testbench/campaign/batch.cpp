@@ -34,7 +34,7 @@ RunResult result_of(const ResolvedRun& run) {
   try {
     const VerificationResult result = verify(run.scene, run.hardware, run.options);
     RunResult summary = summary_of(result);
-    if (!divergence_text(result).empty()) {
+    if (result.diverging() != nullptr) {
       summary.capsule = capsule_text(run.scene->scene, result);
     }
     return summary;

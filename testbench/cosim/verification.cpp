@@ -183,6 +183,11 @@ double VerificationResult::frame_ns_per_pixel() const {
   return clock_ns * static_cast<double>(systemc.counts.frame_cycles) / static_cast<double>(pixels);
 }
 
+const ImplementationResult* VerificationResult::diverging() const {
+  if (systemc.first_divergence) return &systemc;
+  return rtl && (rtl->first_divergence || rtl->signal_divergence) ? &*rtl : nullptr;
+}
+
 bool VerificationResult::same_cycles() const {
   if (!rtl) return true;
   return cycle_difference() == 0 && rtl->counts.datapath_cycles == systemc.counts.datapath_cycles &&

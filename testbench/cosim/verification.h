@@ -80,6 +80,8 @@ struct VerificationResult {
   std::int64_t cycle_difference() const {  // with RTL only
     return rtl->counts.frame_cycles - systemc.counts.frame_cycles;
   }
+  // The first implementation with a pixel or a register that differs, or null.
+  const ImplementationResult* diverging() const;
   bool same_cycles() const;  // of every pixel, in SystemC and RTL; true without RTL
   bool agrees() const { return systemc.agrees() && (!rtl || rtl->agrees()) && same_cycles(); }
   bool within_budget() const { return frame_ns_per_pixel() <= options.budget_ns; }

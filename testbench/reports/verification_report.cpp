@@ -313,8 +313,8 @@ std::string report_text(const VerificationResult& r, const ReportStyle& style) {
 // Where implementations part: null if they do not.
 ordered_json divergence_json(const VerificationResult& r, const std::string& capsule) {
   ordered_json json;
-  const ImplementationResult* found = &r.systemc;
-  if (!found->first_divergence && r.rtl) found = &*r.rtl;
+  const ImplementationResult* const found = r.diverging();
+  if (found == nullptr) return json;
   if (found->first_divergence) {
     const Divergence& d = *found->first_divergence;
     json = {{"triangle", d.triangle},
@@ -334,7 +334,7 @@ ordered_json divergence_json(const VerificationResult& r, const std::string& cap
     json["model"] = s.model;
     json["other"] = s.other;
   }
-  if (!json.is_null()) json["capsule"] = capsule.empty() ? ordered_json() : ordered_json(capsule);
+  json["capsule"] = capsule.empty() ? ordered_json() : ordered_json(capsule);
   return json;
 }
 

@@ -45,9 +45,8 @@ std::string hardware_toml(const Hardware& hardware) {
 }
 
 // What was expected and found, for readers: replay finds it anew.
-toml::table divergence_table(const VerificationResult& r) {
+toml::table divergence_table(const ImplementationResult& found) {
   toml::table table;
-  const ImplementationResult& found = r.systemc.first_divergence || !r.rtl ? r.systemc : *r.rtl;
   if (found.first_divergence) {
     const Divergence& d = *found.first_divergence;
     table = toml::table{{"triangle", d.triangle},
@@ -96,7 +95,7 @@ std::string capsule_text(const Scene& scene, const VerificationResult& result) {
                          {"name", scene.source},
                          {"rtl_hash", fmt::format("{:016x}", rtl_hash(options.rtl_sources))},
                          {"found", divergence_text(result)},
-                         {"divergence", divergence_table(result)},
+                         {"divergence", divergence_table(*result.diverging())},
                          {"options", chosen},
                          {"hardware", hardware_toml(result.hardware)},
                          {"scene", scene_toml(scene)}};

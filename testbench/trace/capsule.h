@@ -23,7 +23,7 @@ struct Capsule {
 // not.
 std::string divergence_text(const VerificationResult& result);
 
-// The TOML text of a capsule. `scene`: of the result.
+// The TOML text of a capsule. `scene`: of the result, in which something must diverge.
 std::string capsule_text(const Scene& scene, const VerificationResult& result);
 
 // Throws InputError if the file is no capsule, or was changed by hand and not `anyway`.

@@ -46,7 +46,7 @@ FailureFiles write_failure(const std::shared_ptr<const PreparedScene>& scene,
                            const VerificationResult& result, const fs::path& folder,
                            const std::string& name) {
   FailureFiles files;
-  if (divergence_text(result).empty()) return files;
+  if (result.diverging() == nullptr) return files;
   fs::create_directories(folder);
   files.capsule = folder / (name + ".toml");
   write_text(files.capsule, capsule_text(scene->scene, result));
