@@ -9,6 +9,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 #include "sim/timestamped_fifo.h"
@@ -26,6 +27,10 @@ class PixelTiming {
   // input and output: the cycles each pixel occupies the framebuffer, then the cycle in which it
   // leaves the datapath. Returns the cycle in which the first pixel enters.
   Cycle next(Cycle asked, std::size_t count, Cycle* cycles) {
+    if (unhindered() &&
+        std::count(cycles, cycles + count, Cycle{1}) == static_cast<std::ptrdiff_t>(count)) {
+      return next_unhindered(asked, count, cycles);
+    }
     // Local copies, because for all the compiler knows cycles[i] may alias the members.
     Cycle in = in_, last_out = last_out_, free_from = free_from_, taken = 0;
     std::size_t slot = read_slot_, out_slot = out_slot_;
@@ -67,6 +72,24 @@ class PixelTiming {
   Cycle end() const { return free_from_; }  // the framebuffer is done with all pixels so far
 
  private:
+  // Whether the last pixel went through without waiting and occupied the framebuffer for 1 cycle.
+  // Nothing before it can then delay a later pixel that enters in order: out and read grow by at
+  // least 1 a pixel, so out(j − latency) ≤ out(j−1) − latency + 1 = in(j−1) + 1 and, where depth ≥
+  // 2, read(j − depth) + 1 ≤ read(j−1) = out(j−1) + 1. The same holds for all j after it, so that
+  // the earlier values kept in `out_` and `read_` need not be replaced.
+  bool unhindered() const {
+    return read_.size() >= 2 && last_out_ == in_ + latency_ && free_from_ == last_out_ + 2;
+  }
+  // next(), if unhindered() and if each pixel occupies the framebuffer for 1 cycle.
+  Cycle next_unhindered(Cycle asked, std::size_t count, Cycle* cycles) {
+    const Cycle first = std::max(asked, in_ + 1);
+    std::iota(cycles, cycles + count, first + latency_);
+    in_ = first + static_cast<Cycle>(count) - 1;
+    last_out_ = in_ + latency_;
+    free_from_ = last_out_ + 2;
+    return first;
+  }
+
   Cycle in_ = -1, last_out_ = -1, free_from_ = 0;
   Cycle latency_;
   std::vector<Cycle> out_;    // of the last `latency` pixels

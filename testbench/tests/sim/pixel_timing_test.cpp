@@ -101,7 +101,10 @@ TEST(PixelTiming, IsThatOfEveryClock) {
       Arrival arrival;
       arrival.length = random.integer(1, longest);
       arrival.asked = asked += random.integer(0, pause);
-      for (int p = 0; p < arrival.length; ++p) arrival.costs.push_back(random.integer(1, dearest));
+      const int dearest_here = random.integer(0, 1) == 0 ? 1 : dearest;
+      for (int p = 0; p < arrival.length; ++p) {
+        arrival.costs.push_back(random.integer(1, dearest_here));
+      }
       arrivals.push_back(arrival);
     }
     const int depth = random.integer(1, 20);
