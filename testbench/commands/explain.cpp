@@ -17,6 +17,8 @@ struct ExplainCommandOptions {
   std::string scene, pixel, json;
   bool worst = false;
   HardwareOptions hardware;
+  std::filesystem::path rtl_sources;
+  SimulationOptions simulation;
 };
 
 int explain(const ExplainCommandOptions& options) {
@@ -35,10 +37,11 @@ int explain(const ExplainCommandOptions& options) {
   if (!pixel) pixel = worst_pixel(frame.setup, model);
   PixelStory story = tell_story(frame, hardware, model, pixel->x, pixel->y);
   RtlBuildOptions build;
+  build.sources = options.rtl_sources;
   build.progress = [&](const std::string& what) { progress("building the RTL for " + what); };
   const RtlLibrary library(frame.setup.configuration, build);
   progress("simulating SystemC and RTL");
-  add_cycles(frame, library, story);
+  add_cycles(frame, library, options.simulation, story);
   progress.clear();
   write_output(options.json, pixel_json(story).dump(2) + "\n");
   if (options.json != "-") print_or_throw(pixel_text(story));
@@ -61,6 +64,8 @@ void add_explain(CLI::App& application, Run& run) {
       ->add_option("--json", options->json,
                    "Write the same as JSON; - is standard output, in place of the report")
       ->type_name("FILE");
+  add_stall_options(*command, options->simulation);
+  add_rtl_option(*command, options->rtl_sources);
   command->footer("Example: phongpipe explain teapot --pixel 185,245\n");
   options->hardware.add_to(*command);
   command->callback([options, &run] { run = [options] { return explain(*options); }; });

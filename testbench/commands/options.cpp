@@ -46,6 +46,21 @@ std::string metrics_help() {
   return text;
 }
 
+void add_rtl_option(CLI::App& command, std::filesystem::path& rtl_sources) {
+  command.add_option("--rtl", rtl_sources, "Folder of the RTL, if not the installed")
+      ->type_name("DIR")
+      ->check(CLI::ExistingDirectory.description(""));
+}
+
+void add_stall_options(CLI::App& command, SimulationOptions& simulation) {
+  command.add_option("--stall", simulation.stall_percent, "Back-pressure, as in verify")
+      ->type_name("0-100")
+      ->check(CLI::Range(0, 100).description(""));
+  command.add_option("--seed", simulation.stall_seed, "Of the back-pressure")
+      ->capture_default_str()
+      ->type_name("N");
+}
+
 Pixel parse_pixel(const std::string& text) {
   const std::vector<std::string_view> parts = split(text, ',');
   std::vector<int> numbers;

@@ -15,6 +15,7 @@
 
 #include "model/fixed/coverage.h"
 #include "model/shading/methods/power.h"
+#include "sim/pipeline.h"
 #include "testbench/system/terminal.h"
 
 namespace phongpipe {
@@ -74,6 +75,11 @@ void add_choice(CLI::App& command, const std::string& flag, Value& value,
 
 // A finite number above 0.
 CLI::Validator positive_number();
+
+// --rtl: other RTL than the installed.
+void add_rtl_option(CLI::App& command, std::filesystem::path& rtl_sources);
+// --stall and --seed: random back-pressure, as `verify` has it.
+void add_stall_options(CLI::App& command, SimulationOptions& simulation);
 
 // X,Y of --pixel. Throws InputError for anything else.
 Pixel parse_pixel(const std::string& text);

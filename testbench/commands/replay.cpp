@@ -42,7 +42,8 @@ int replay(const ReplayCommandOptions& options) {
     style.color = color_wanted();
     print_or_throw(report_text(result, style));
     print_or_throw(same ? "  replay   the same divergence as recorded\n"
-                        : fmt::format("  replay   recorded was {}\n", printable(capsule.found)));
+                        : fmt::format("  replay   recorded was {}{}\n", printable(capsule.found),
+                                      capsule.same_program ? "" : ", by another program file"));
   }
   return result.passed() ? 0 : kCheckFailed;
 }
@@ -56,9 +57,7 @@ void add_replay(CLI::App& application, Run& run) {
   command->add_option("capsule", options->capsule, "File that verify or regress has written")
       ->required()
       ->type_name("CAPSULE");
-  command->add_option("--rtl", options->rtl_sources, "Folder of the RTL, if not the installed")
-      ->type_name("DIR")
-      ->check(CLI::ExistingDirectory.description(""));
+  add_rtl_option(*command, options->rtl_sources);
   command->add_flag("--anyway", options->anyway,
                     "Also with other RTL, another version, or a capsule changed by hand");
   command->add_option("--json", options->json, "Write the result as JSON; - is standard output")

@@ -199,17 +199,8 @@ void add_trace(CLI::App& application, Run& run) {
       ->capture_default_str()
       ->type_name("CYCLES")
       ->check(CLI::Range(0, 1'000'000).description(""));
-  command
-      ->add_option("--stall", options->trace.simulation.stall_percent,
-                   "Back-pressure, as in verify")
-      ->type_name("0-100")
-      ->check(CLI::Range(0, 100).description(""));
-  command->add_option("--seed", options->trace.simulation.stall_seed, "Of the back-pressure")
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--rtl", options->rtl_sources, "Folder of the RTL, if not the installed")
-      ->type_name("DIR")
-      ->check(CLI::ExistingDirectory.description(""));
+  add_stall_options(*command, options->trace.simulation);
+  add_rtl_option(*command, options->rtl_sources);
   command->add_flag("--rtl-drives", options->trace.rtl_drives,
                     "Let the RTL answer to the other modules, as verify does, and not SystemC");
   options->hardware.add_to(*command);

@@ -248,9 +248,7 @@ void add_verify(CLI::App& application, Run& run) {
       ->type_name("FILE.json");
   command->add_flag("-v,--verbose", options->verbose,
                     "Tell settings, effects and all metrics after the answer");
-  command->add_option("--rtl", v.rtl_sources, "Folder of the RTL to verify, if not the installed")
-      ->type_name("DIR")
-      ->check(CLI::ExistingDirectory.description(""));
+  add_rtl_option(*command, v.rtl_sources);
   command->footer(
       "Exit status: 0 all holds, 1 a check failed, 2 bad usage or input, 3 a tool or the machine "
       "failed.\n"

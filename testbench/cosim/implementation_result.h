@@ -12,6 +12,7 @@ namespace phongpipe {
 // The first pixel at which an implementation differs from the model.
 struct Divergence {
   std::uint64_t stream_index = 0;  // of the pixel among all shaded pixels
+  std::uint64_t span = 0;          // of the pixel, in the order of pixel_datapath
   std::uint32_t triangle = 0;      // of the scene, even if it was split
   std::int64_t cycle = 0;
   ShadedPixel model, found;
@@ -19,9 +20,10 @@ struct Divergence {
 
   static constexpr auto fields() {
     using D = Divergence;
-    return std::make_tuple(field("stream_index", &D::stream_index), field("triangle", &D::triangle),
-                           field("cycle", &D::cycle), field("model", &D::model),
-                           field("found", &D::found), field("missing", &D::missing));
+    return std::make_tuple(field("stream_index", &D::stream_index), field("span", &D::span),
+                           field("triangle", &D::triangle), field("cycle", &D::cycle),
+                           field("model", &D::model), field("found", &D::found),
+                           field("missing", &D::missing));
   }
 };
 

@@ -38,6 +38,7 @@ bool StreamChecker::next(ShadedPixel& pixel) {
       return false;
     }
     next_in_span_ = 0;
+    ++spans_;
     span_length_ = model_.span().row.length;
     triangle_ = model_.span().triangle;
   }
@@ -52,7 +53,8 @@ void StreamChecker::record(const ShadedPixel& model, const ShadedPixel& found, s
                            bool missing) {
   ++mismatches_;
   if (first_) return;
-  first_ = Divergence{stream_index_, triangle_, cycle, model, found, missing};
+  first_ = Divergence{stream_index_, spans_ == 0 ? 0 : spans_ - 1, triangle_, cycle, model, found,
+                      missing};
 }
 
 void StreamChecker::observe(const ShadedPixel& pixel, std::int64_t cycle) {

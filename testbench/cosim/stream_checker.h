@@ -67,6 +67,7 @@ class StreamChecker {
   SpanStream model_;
   int next_in_span_ = 0, span_length_ = 0;
   std::uint32_t triangle_ = 0;  // of the current span
+  std::uint64_t spans_ = 0;     // begun, in the model
   std::uint64_t stream_index_ = 0;
   std::uint64_t mismatches_ = 0;
   std::optional<Divergence> first_;

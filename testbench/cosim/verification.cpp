@@ -184,8 +184,9 @@ double VerificationResult::frame_ns_per_pixel() const {
 }
 
 const ImplementationResult* VerificationResult::diverging() const {
+  if (rtl && rtl->signal_divergence) return &*rtl;
   if (systemc.first_divergence) return &systemc;
-  return rtl && (rtl->first_divergence || rtl->signal_divergence) ? &*rtl : nullptr;
+  return rtl && rtl->first_divergence ? &*rtl : nullptr;
 }
 
 bool VerificationResult::same_cycles() const {

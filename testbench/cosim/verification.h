@@ -80,7 +80,8 @@ struct VerificationResult {
   std::int64_t cycle_difference() const {  // with RTL only
     return rtl->counts.frame_cycles - systemc.counts.frame_cycles;
   }
-  // The first implementation with a pixel or a register that differs, or null.
+  // The implementation whose difference is told: RTL if the register is known, else the first of
+  // SystemC and RTL with a pixel that differs, else null.
   const ImplementationResult* diverging() const;
   bool same_cycles() const;  // of every pixel, in SystemC and RTL; true without RTL
   bool agrees() const { return systemc.agrees() && (!rtl || rtl->agrees()) && same_cycles(); }

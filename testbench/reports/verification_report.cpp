@@ -98,8 +98,9 @@ void report_implementation(Page& page, const char* name, const ImplementationRes
   const Divergence& d = *found.first_divergence;
   const int channels = r.configuration.channels;
   page.line("first",
-            fmt::format("triangle {}, x {}, y {}, cycle {}, pixel {} of the stream, seed {}",
-                        d.triangle, d.model.x, d.model.y, d.cycle, d.stream_index, r.options.seed));
+            fmt::format(
+                "triangle {}, x {}, y {}, cycle {}, span {}, pixel {} of the stream, seed {}",
+                d.triangle, d.model.x, d.model.y, d.cycle, d.span, d.stream_index, r.options.seed));
   page.line("", fmt::format("model    {}", color_text(d.model.color, channels)));
   page.line("", fmt::format(
                     "{:<8} {}", name,

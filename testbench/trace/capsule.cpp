@@ -20,10 +20,26 @@ namespace {
 
 constexpr std::string_view kDigest = "digest = ";
 
+std::string hash_text(std::uint64_t hash) {
+  return fmt::format("{:016x}", hash);
+}
+std::uint64_t parse_hash(const std::string& text) {
+  std::uint64_t hash = 0;
+  std::istringstream(text) >> std::hex >> hash;
+  return hash;
+}
+
 std::string digest_of(std::string_view text) {
   FnvHash hash;
   hash.add(text);
-  return fmt::format("{:016x}", hash.value());
+  return hash_text(hash.value());
+}
+
+// Hash of the file of this program.
+std::uint64_t program_hash() {
+  FnvHash hash;
+  hash.add(read_whole_file("/proc/self/exe"));
+  return hash.value();
 }
 
 // Settings of the hardware as a hardware file has them.
@@ -53,6 +69,7 @@ toml::table divergence_table(const ImplementationResult& found) {
                         {"x", d.model.x},
                         {"y", d.model.y},
                         {"cycle", d.cycle},
+                        {"span", static_cast<std::int64_t>(d.span)},
                         {"pixel_of_the_stream", static_cast<std::int64_t>(d.stream_index)},
                         {"expected_color", d.model.color},
                         {"found_color", d.found.color}};
@@ -70,20 +87,17 @@ toml::table divergence_table(const ImplementationResult& found) {
 }  // namespace
 
 std::string divergence_text(const VerificationResult& r) {
-  if (r.rtl && r.rtl->signal_divergence) {
-    const SignalDivergence& s = *r.rtl->signal_divergence;
+  const ImplementationResult* const found = r.diverging();
+  if (found == nullptr) return {};
+  if (found->signal_divergence) {
+    const SignalDivergence& s = *found->signal_divergence;
     return fmt::format("{}: model {}, rtl {} in cycle {}", s.name(), hex_text(s.model, s.width),
                        hex_text(s.other, s.width), s.cycle);
   }
-  const auto pixel = [](const char* name, const ImplementationResult& found) {
-    if (!found.first_divergence) return std::string();
-    const Divergence& d = *found.first_divergence;
-    return fmt::format("{}: x {}, y {}: model {:#x}, found {:#x} in cycle {}", name, d.model.x,
-                       d.model.y, d.model.color, d.found.color, d.cycle);
-  };
-  std::string text = pixel("SystemC", r.systemc);
-  if (text.empty() && r.rtl) text = pixel("RTL", *r.rtl);
-  return text;
+  const Divergence& d = *found->first_divergence;
+  return fmt::format("{}: x {}, y {}: model {:#x}, found {:#x} in cycle {}",
+                     found == &r.systemc ? "SystemC" : "RTL", d.model.x, d.model.y, d.model.color,
+                     d.found.color, d.cycle);
 }
 
 std::string capsule_text(const Scene& scene, const VerificationResult& result) {
@@ -93,7 +107,8 @@ std::string capsule_text(const Scene& scene, const VerificationResult& result) {
   const toml::table root{{"version", PHONGPIPE_VERSION},
                          {"arithmetic", kArithmeticVersion},
                          {"name", scene.source},
-                         {"rtl_hash", fmt::format("{:016x}", rtl_hash(options.rtl_sources))},
+                         {"program_hash", hash_text(program_hash())},
+                         {"rtl_hash", hash_text(rtl_hash(options.rtl_sources))},
                          {"found", divergence_text(result)},
                          {"divergence", divergence_table(*result.diverging())},
                          {"options", chosen},
@@ -129,7 +144,8 @@ Capsule read_capsule(const std::filesystem::path& file, bool anyway) {
   const int arithmetic = root.integer("arithmetic", 0, 1'000'000);
   capsule.name = root.text("name");
   capsule.found = root.text("found");
-  const std::string hash = root.text("rtl_hash");
+  capsule.same_program = parse_hash(root.text("program_hash")) == program_hash();
+  capsule.rtl_hash = parse_hash(root.text("rtl_hash"));
   root.table("divergence");
   const TomlTable options = root.table("options");
   for (const RunOption& option : run_options()) {
@@ -140,8 +156,6 @@ Capsule read_capsule(const std::filesystem::path& file, bool anyway) {
   capsule.scene = parse_scene(root.text("scene"), file);
   root.finish();
   capsule.scene.source = capsule.name;
-  std::istringstream digits(hash);
-  digits >> std::hex >> capsule.rtl_hash;
   if (arithmetic != kArithmeticVersion && !anyway) {
     throw InputError(fmt::format(
         "{}: written by a phongpipe with other arithmetic ({}); --anyway replays it with this one",

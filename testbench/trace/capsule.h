@@ -11,6 +11,7 @@ namespace phongpipe {
 struct Capsule {
   std::string name;            // of the scene, where the capsule was written
   std::string version;         // of the program
+  bool same_program = false;   // whether the file of this program wrote it
   std::uint64_t rtl_hash = 0;  // of the RTL that diverged
   Scene scene;
   Hardware hardware;

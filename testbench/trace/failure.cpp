@@ -13,9 +13,8 @@ namespace {
 
 // The cycle of the first difference.
 std::int64_t cycle_of(const VerificationResult& r) {
-  if (r.rtl && r.rtl->signal_divergence) return r.rtl->signal_divergence->cycle;
-  if (r.rtl && r.rtl->first_divergence) return r.rtl->first_divergence->cycle;
-  return r.systemc.first_divergence->cycle;
+  const ImplementationResult& found = *r.diverging();
+  return found.signal_divergence ? found.signal_divergence->cycle : found.first_divergence->cycle;
 }
 
 void write_trace(const std::shared_ptr<const PreparedScene>& scene, const VerificationResult& r,

@@ -9,7 +9,6 @@
 #include "model/fixed/depth_cue.h"
 #include "model/scene/input_error.h"
 #include "model/shading/screen_interpolator.h"
-#include "sim/pipeline.h"
 #include "testbench/accuracy/accuracy.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/process.h"
@@ -259,9 +258,8 @@ class StoryTeller {
 
 // The cycles in which the pixel leaves pixel_datapath; SystemC's own, without a library.
 std::vector<std::int64_t> exit_cycles(const FrameSetup& frame, const PixelStory& story,
-                                      const RtlLibrary* library) {
+                                      SimulationOptions options, const RtlLibrary* library) {
   std::vector<std::int64_t> exits;
-  SimulationOptions options;
   options.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       if (pixels[i].x == story.x && pixels[i].y == story.y) exits.push_back(cycles[i]);
@@ -318,10 +316,12 @@ PixelStory tell_story(const PreparedFrame& frame, const Hardware& hardware, cons
   return StoryTeller(frame, model, x, y).tell(hardware);
 }
 
-void add_cycles(const PreparedFrame& frame, const RtlLibrary& library, PixelStory& story) {
+void add_cycles(const PreparedFrame& frame, const RtlLibrary& library,
+                const SimulationOptions& simulation, PixelStory& story) {
   const auto simulate_with = [&](const RtlLibrary* datapath) {
-    return
-        [&frame, &story, datapath] { return to_bytes(exit_cycles(frame.setup, story, datapath)); };
+    return [&frame, &story, &simulation, datapath] {
+      return to_bytes(exit_cycles(frame.setup, story, simulation, datapath));
+    };
   };
   Child rtl(simulate_with(&library)), systemc(simulate_with(nullptr));
   const auto add = [&story](Child& child, const char* name,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim/datapath_registers.h"
+#include "sim/pipeline.h"
 #include "testbench/accuracy/error_chain.h"
 #include "testbench/cosim/effect_set.h"
 #include "testbench/hardware/hardware.h"
@@ -113,6 +114,7 @@ PixelStory tell_story(const PreparedFrame& frame, const Hardware& hardware, cons
 
 // Simulates the frame in SystemC and with the RTL, each in a process of its own, and adds the
 // cycles of the visits. Throws ToolError if an implementation has other visits.
-void add_cycles(const PreparedFrame& frame, const RtlLibrary& library, PixelStory& story);
+void add_cycles(const PreparedFrame& frame, const RtlLibrary& library,
+                const SimulationOptions& simulation, PixelStory& story);
 
 }  // namespace phongpipe

@@ -49,6 +49,18 @@ TEST_F(Explain, FinalValuesAreThoseOfRender) {
   }
 }
 
+TEST_F(Explain, CyclesAreThoseOfTheBackPressureAskedFor) {
+  const auto cycle = [&](std::vector<std::string> options) {
+    options.insert(options.begin(), {"sphere", "--pixel", "100,120"});
+    const Json visit = explain(options)["visits"][0]["cycle"];
+    EXPECT_EQ(visit["systemc"], visit["rtl"]);
+    return visit["rtl"].get<int>();
+  };
+  const int stalled = cycle({"--stall", "60"});
+  EXPECT_GT(stalled, cycle({}));
+  EXPECT_NE(stalled, cycle({"--stall", "60", "--seed", "2"}));
+}
+
 TEST_F(Explain, PartsInJsonAddUpToTheErrorExactly) {
   for (const char* scene : {"teapot", "effects/two-lights", "effects/depth-cue"}) {
     const Json story = explain({scene, "--worst"});

@@ -75,6 +75,9 @@ TEST_F(TraceProgram, AFaultIsNamedTracedAndReplayed) {
   EXPECT_EQ(run({"diff-traces", file("out/sphere.fst"), file("out/sphere.fst")}).status, 1)
       << "RTL and SystemC differ there";
 
+  EXPECT_EQ(run({"explain", "sphere", "--pixel", "100,120", "--rtl", rtl}).status, 0);
+  expect_refused({"explain", "sphere", "--worst", "--rtl", "/nosuch"}, "/nosuch");
+
   const ProcessOutput unwritable =
       run_process({"sh", "-c", PHONGPIPE_PROGRAM " verify sphere --rtl " + rtl}, "/proc/self");
   EXPECT_EQ(unwritable.status, 1) << "the report comes all the same";

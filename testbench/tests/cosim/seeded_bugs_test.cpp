@@ -75,11 +75,16 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
   ASSERT_TRUE(v.rtl->first_divergence.has_value());
   EXPECT_EQ(v.rtl->first_divergence->stream_index, brightest);
   EXPECT_EQ(v.rtl->first_divergence->model, pixel);
+  SpanStream spans(frame.setup);
+  for (std::uint64_t i = 0; i <= v.rtl->first_divergence->span; ++i) ASSERT_TRUE(spans.next());
+  const RowSpan& row = spans.span().row;
+  EXPECT_EQ(row.y, pixel.y);
+  EXPECT_TRUE(row.x <= pixel.x && pixel.x < row.x + row.length) << row.x << " + " << row.length;
   EXPECT_LT(v.rtl->first_divergence->found.color, pixel.color);
   const std::string report = report_text(v, {});
-  EXPECT_NE(report.find(fmt::format("triangle {}, x {}, y {}, cycle {}, pixel",
+  EXPECT_NE(report.find(fmt::format("triangle {}, x {}, y {}, cycle {}, span {}, pixel",
                                     v.rtl->first_divergence->triangle, pixel.x, pixel.y,
-                                    v.rtl->first_divergence->cycle)),
+                                    v.rtl->first_divergence->cycle, v.rtl->first_divergence->span)),
             std::string::npos)
       << report;
   EXPECT_NE(report.find("FAILED"), std::string::npos);

@@ -110,6 +110,7 @@ TEST_F(Capsules, KeepEverything) {
   EXPECT_EQ(configuration_hash(capsule.hardware), configuration_hash(result_.hardware));
   EXPECT_EQ(capsule.options.stall_percent, 20);
   EXPECT_EQ(capsule.options.seed, 9U);
+  EXPECT_TRUE(capsule.same_program);
   expect_same_geometry(load_named_scene("sphere", {}), capsule.scene);
 }
 

@@ -296,7 +296,7 @@ TEST(PixelStory, CyclesAreThoseOfTheWholeSimulationByTheClock) {
   const std::vector<Pixel> covered = shaded.covered();
   for (std::size_t i = 0; i < covered.size(); i += 3001) {
     PixelStory story = shaded.tell(covered[i]);
-    add_cycles(shaded.frame, library, story);
+    add_cycles(shaded.frame, library, {}, story);
     auto visit = story.visits.begin();
     for (std::size_t k = 0; k < trace.stream.size(); ++k) {
       if (trace.stream[k].x != story.x || trace.stream[k].y != story.y) continue;

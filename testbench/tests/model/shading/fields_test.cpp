@@ -56,7 +56,7 @@ TEST(Fields, RecordsTravelAsBytes) {
   sent.counts.modules = {"a", "b"};
   sent.fingerprint.stream_hash = std::numeric_limits<std::uint64_t>::max();
   sent.processor_seconds = 0.1;
-  sent.first_divergence = Divergence{5, 6, 7, {8, 9, 10}, {11, 12, 13}, true};
+  sent.first_divergence = Divergence{5, 4, 6, 7, {8, 9, 10}, {11, 12, 13}, true};
   const auto received = from_bytes<ImplementationResult>(to_bytes(sent));
   EXPECT_EQ(nlohmann::json(received), nlohmann::json(sent));
   EXPECT_EQ(received.first_divergence->found.color, 13U);
