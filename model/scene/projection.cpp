@@ -1,6 +1,7 @@
 #include "model/scene/projection.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 namespace phongpipe {
@@ -37,8 +38,12 @@ ClipVertex ScreenProjection::to_clip(const Vec3& position, const Vec3& normal) c
 
 ScreenVertex ScreenProjection::to_screen(const ClipVertex& vertex) const {
   ScreenVertex result;
-  result.x = snap(vertex.x / vertex.w);
-  result.y = snap(vertex.y / vertex.w);
+  // Clipping rounds, the more the farther out a vertex was: the guard band's border is kept here.
+  const auto snap_inside = [&vertex](double position, double center) {
+    return snap(std::clamp<double>(position / vertex.w, -kGuardBand, 2 * center + kGuardBand));
+  };
+  result.x = snap_inside(vertex.x, center_x_);
+  result.y = snap_inside(vertex.y, center_y_);
   result.z = camera_.projection == Projection::perspective ? 1 - near_ / vertex.w : vertex.depth;
   result.normal = vertex.normal;
   result.position = vertex.position;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <thread>
 
 #include "testbench/accuracy/error_chain.h"
+#include "testbench/system/parallel.h"
 
 namespace phongpipe {
 
@@ -49,15 +48,17 @@ void keep_worst(std::vector<PixelError>& worst, const PixelError& pixel) {
 
 // Statistics of some triangles; their pixels of the pictures, which no other triangle shows, are
 // drawn into `whole`.
-Accuracy measure_triangles(const FrameSetup& frame, const ModelFrame& model, std::uint32_t first,
-                           std::uint32_t end, bool pictures, Accuracy& whole) {
+Accuracy measure_triangles(const FrameSetup& frame, const ModelFrame& model,
+                           const AccuracyOptions& options, std::uint32_t first, std::uint32_t end,
+                           Accuracy& whole) {
   Accuracy accuracy;
   const int channels = frame.configuration.channels;
-  for_each_visible_pixel(frame, model, first, end, [&](const ErrorChain& links) {
+  for_each_visible_pixel(frame, model, whole.misplaced, first, end, [&](const ErrorChain& links) {
     ++accuracy.visible_pixels;
     double largest = 0;
     for (int c = 0; c < channels; ++c) {
-      accuracy.series.add(links.polynomial[c] - links.exact[c]);
+      accuracy.visibility.add(links.shown[c] - links.exact[c]);
+      accuracy.series.add(links.polynomial[c] - links.shown[c]);
       accuracy.rounding.add(links.rounded[c] - links.polynomial[c]);
       accuracy.rom.add(links.table[c] - links.rounded[c]);
       accuracy.output.add(links.output[c] - links.table[c]);
@@ -65,7 +66,8 @@ Accuracy measure_triangles(const FrameSetup& frame, const ModelFrame& model, std
       largest = std::max(largest, std::fabs(links.output[c] - links.exact[c]));
     }
     keep_worst(accuracy.worst_pixels, {links.index, largest});
-    if (!pictures) return;
+    accuracy.pixels_over_limit += largest > options.limit_lsb;
+    if (!options.pictures) return;
     std::uint8_t* const exact = whole.exact_picture.pixel(links.index);
     for (int c = 0; c < channels; ++c) {
       // Not below 0; std::lround costs much of the whole loop.
@@ -80,38 +82,29 @@ Accuracy measure_triangles(const FrameSetup& frame, const ModelFrame& model, std
 
 }  // namespace
 
-Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures,
-                          bool one_core) {
+Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model,
+                          const AccuracyOptions& options) {
   Accuracy whole;
-  if (pictures) {
+  whole.misplaced = misplaced_pixels(frame, model, options.one_core);
+  if (options.pictures) {
     whole.exact_picture =
         Picture(frame.width, frame.height, frame.configuration.channels, frame.background.data());
     whole.error_picture = Picture(frame.width, frame.height, 3, kUncoveredColor.data());
   }
   // Always the same parts, added in the same order, so that sums do not depend on the machine.
   constexpr std::uint32_t kParts = 16;
-  const auto triangles = static_cast<std::uint64_t>(frame.geometry->triangles.size());
+  const std::size_t triangles = frame.geometry->triangles.size();
   std::array<Accuracy, kParts> parts;
-  std::atomic<std::uint32_t> next{0};
-  const auto work = [&] {
-    for (std::uint32_t part = next++; part < kParts; part = next++) {
-      const auto bound = [&](std::uint64_t k) {
-        return static_cast<std::uint32_t>(triangles * k / kParts);
-      };
-      parts[part] = measure_triangles(frame, model, bound(part), bound(part + 1), pictures, whole);
-    }
-  };
-  std::vector<std::thread> threads;
-  const unsigned cores = one_core ? 1 : std::thread::hardware_concurrency();
-  for (unsigned i = 1; i < std::min(cores, kParts); ++i) {
-    threads.emplace_back(work);
-  }
-  work();
-  for (std::thread& thread : threads) thread.join();
+  run_parts(kParts, options.one_core, [&](std::uint32_t part) {
+    parts[part] = measure_triangles(frame, model, options, first_of_part(triangles, part, kParts),
+                                    first_of_part(triangles, part + 1, kParts), whole);
+  });
   for (const Accuracy& part : parts) {
     whole.visible_pixels += part.visible_pixels;
+    whole.pixels_over_limit += part.pixels_over_limit;
     for (const PixelError& pixel : part.worst_pixels) keep_worst(whole.worst_pixels, pixel);
     whole.total.add(part.total);
+    whole.visibility.add(part.visibility);
     whole.series.add(part.series);
     whole.rounding.add(part.rounding);
     whole.rom.add(part.rom);

@@ -1,5 +1,6 @@
 // Error of the picture against exact Phong shading, split into its causes, pixel by pixel along the
-// chain exact Phong → real polynomial → rounded coefficients → ROM → 8-bit output.
+// chain exact Phong → the triangle shown → real polynomial → rounded coefficients → ROM → 8-bit
+// output.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "model/fixed/model_frame.h"
+#include "testbench/accuracy/exact_visibility.h"
 #include "testbench/drawing/pictures.h"
 
 namespace phongpipe {
@@ -40,23 +41,33 @@ struct PixelError {
   double error_lsb = 0;   // the largest of its channels, without sign
 };
 
+struct AccuracyOptions {
+  bool pictures = true;
+  bool one_core = false;  // else all cores; the result is the same
+  double limit_lsb = 2;   // pixels with larger errors are counted
+};
+
 struct Accuracy {
   std::uint64_t visible_pixels = 0;
+  std::uint64_t pixels_over_limit = 0;
   std::vector<PixelError> worst_pixels;  // at most kWorstPixels, the largest error first
   ErrorStatistics total;
   // Each is one step of the chain; at every pixel they add up to the total.
-  ErrorStatistics series;    // second-degree polynomial in place of the exact reflection
-  ErrorStatistics rounding;  // of coefficients and starts of spans
-  ErrorStatistics rom;       // rounding of index and word of the power's table
-  ErrorStatistics output;    // rounding to 8 bits
+  ErrorStatistics visibility;  // another triangle shown than the nearest
+  ErrorStatistics series;      // second-degree polynomial in place of the exact reflection
+  ErrorStatistics rounding;    // of coefficients and starts of spans
+  ErrorStatistics rom;         // rounding of index and word of the power's table
+  ErrorStatistics output;      // rounding to 8 bits
+
+  std::vector<MisplacedPixel> misplaced;  // at which another triangle is the nearest
 
   // If pictures are requested.
   Picture exact_picture;  // rounded to 8 bits
   Picture error_picture;  // the largest error of the channels, in the colours of error_color()
 };
 
-// Measures all visible pixels of the model's frame, on all cores or one. The result is the same.
-Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model, bool pictures = true,
-                          bool one_core = false);
+// Measures all visible pixels of the model's frame.
+Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model,
+                          const AccuracyOptions& options = {});
 
 }  // namespace phongpipe

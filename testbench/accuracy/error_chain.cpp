@@ -1,5 +1,6 @@
 #include "testbench/accuracy/error_chain.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/fixed/color_sum.h"
@@ -178,7 +179,8 @@ class TriangleChain {
   void at(int i, ErrorChain& chain) const {
     PassLight light;
     for (const PassChain& pass : passes_) pass.add(row_.x + i, light);
-    chain.exact = exact_[static_cast<std::size_t>(i)];
+    chain.shown = exact_[static_cast<std::size_t>(i)];
+    chain.exact = chain.shown;
     chain.polynomial = shown(light.polynomial, i);
     chain.rounded = shown(light.rounded, i);
     chain.address = shown(light.address, i);
@@ -208,6 +210,24 @@ void take_output(const FrameSetup& frame, const ModelFrame& model, ErrorChain& l
   }
 }
 
+// The nearest triangle of a pixel, if the frame shows another.
+const std::uint32_t* nearest_at(const std::vector<MisplacedPixel>& misplaced, std::size_t index) {
+  if (misplaced.empty()) return nullptr;
+  const auto found = std::lower_bound(
+      misplaced.begin(), misplaced.end(), index,
+      [](const MisplacedPixel& pixel, std::size_t wanted) { return pixel.index < wanted; });
+  return found != misplaced.end() && found->index == index ? &found->triangle : nullptr;
+}
+
+// Exact Phong shading of one pixel of a triangle.
+Color exact_color(const Scene& scene, const Geometry& geometry, std::uint32_t triangle, int x,
+                  int y) {
+  const ScreenTriangle& shape = geometry.triangles[triangle];
+  Color color;
+  PhongTriangle(scene, geometry.materials[shape.material], shape).shade(x, y, 1, &color);
+  return color;
+}
+
 Color rounded_link(const Color& link, int channels) {
   constexpr int kFraction = 40;
   Color result = Color::Zero();
@@ -221,11 +241,12 @@ Color rounded_link(const Color& link, int channels) {
 
 void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
                             const std::function<void(const ErrorChain&)>& visit) {
-  for_each_visible_pixel(frame, model, 0,
+  for_each_visible_pixel(frame, model, misplaced_pixels(frame, model, false), 0,
                          static_cast<std::uint32_t>(frame.geometry->triangles.size()), visit);
 }
 
-void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model, std::uint32_t first,
+void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
+                            const std::vector<MisplacedPixel>& misplaced, std::uint32_t first,
                             std::uint32_t end,
                             const std::function<void(const ErrorChain&)>& visit) {
   const FrontEnd front_end(frame);
@@ -239,6 +260,9 @@ void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model, st
       for (int i = 0; i < row.length; ++i, ++links.index) {
         if (!model.framebuffer.owned(links.index, triangle)) continue;  // hidden
         chain.at(i, links);
+        if (const std::uint32_t* nearest = nearest_at(misplaced, links.index)) {
+          links.exact = exact_color(*frame.scene, *frame.geometry, *nearest, row.x + i, row.y);
+        }
         take_output(frame, model, links);
         visit(links);
       }
@@ -254,7 +278,8 @@ std::size_t ErrorSplit::largest_part() const {
                                   parts.begin());
 }
 
-ErrorSplit split_error(const PreparedFrame& frame, const ModelFrame& model, int x, int y) {
+ErrorSplit split_error(const PreparedFrame& frame, const ModelFrame& model,
+                       const std::vector<MisplacedPixel>& misplaced, int x, int y) {
   ErrorChain links;
   links.index = model.framebuffer.index_of(x, y);
   take_output(frame.setup, model, links);
@@ -266,14 +291,20 @@ ErrorSplit split_error(const PreparedFrame& frame, const ModelFrame& model, int 
     chain.start(row);
     chain.at(x - row.x, links);
   }
+  const std::uint32_t* const nearest = nearest_at(misplaced, links.index);
   const Geometry& geometry = frame.prepared->geometry;
-  const ScreenTriangle& whole = geometry.triangles[frame.subdivision().whole[piece]];
-  Color exact;
-  PhongTriangle(frame.scene(), geometry.materials[whole.material], whole).shade(x, y, 1, &exact);
-
+  const auto of_whole = [&](std::uint32_t part) {
+    return exact_color(frame.scene(), geometry, frame.subdivision().whole[part], x, y);
+  };
   std::array<Color, kErrorParts.size() + 1> colors = {
-      exact,         links.exact, links.polynomial, links.rounded,
-      links.address, links.table, links.output};
+      of_whole(nearest != nullptr ? *nearest : piece),
+      of_whole(piece),
+      links.shown,
+      links.polynomial,
+      links.rounded,
+      links.address,
+      links.table,
+      links.output};
   for (Color& color : colors) color = rounded_link(color, frame.setup.configuration.channels);
   ErrorSplit split;
   split.exact = colors.front();

@@ -1,5 +1,5 @@
-// The colour of each pixel at every link of the chain exact Phong → real polynomial → rounded
-// coefficients → ROM → 8-bit output. All lights together.
+// The colour of each pixel at every link of the chain exact Phong → Phong of the triangle that is
+// shown → real polynomial → rounded coefficients → ROM → 8-bit output. All lights together.
 #pragma once
 
 #include <array>
@@ -10,13 +10,15 @@
 #include "model/fixed/front_end.h"
 #include "model/fixed/model_frame.h"
 #include "model/fixed/prepared_frame.h"
+#include "testbench/accuracy/exact_visibility.h"
 
 namespace phongpipe {
 
 // The colours of one visible pixel along the chain, in LSB; the channels in use only.
 struct ErrorChain {
   std::size_t index = 0;  // of the pixel in the image
-  Color exact;            // Phong shading, normals normalised at the pixel
+  Color exact;            // Phong shading of the nearest triangle, normals normalised at the pixel
+  Color shown;            // the same of the triangle that the frame shows
   Color polynomial;       // the series in real arithmetic, exact powers
   Color rounded;          // the datapath's series, exact powers
   Color address;  // exact powers of what the ROM's addresses stand for; in split_error() only
@@ -25,8 +27,9 @@ struct ErrorChain {
 };
 
 // Calls `visit` for every visible pixel of the model's frame, triangle by triangle from `first` to
-// before `end`.
-void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model, std::uint32_t first,
+// before `end`. `misplaced`: those of the frame.
+void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
+                            const std::vector<MisplacedPixel>& misplaced, std::uint32_t first,
                             std::uint32_t end, const std::function<void(const ErrorChain&)>& visit);
 // The same for all triangles.
 void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
@@ -36,7 +39,8 @@ void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
 struct ErrorPart {
   std::string_view name, meaning;
 };
-constexpr std::array<ErrorPart, 6> kErrorParts = {{
+constexpr std::array<ErrorPart, 7> kErrorParts = {{
+    {"visibility", "the frame shows another triangle than the nearest, by rounded depths"},
     {"normals", "interpolated over the piece that is shaded, not the whole triangle"},
     {"series", "second-degree polynomial in place of the exact reflection"},
     {"coefficient_rounding", "of the T_i and of the starts of spans"},
@@ -56,7 +60,8 @@ struct ErrorSplit {
   // Place in `parts` of what has the largest size in some channel.
   std::size_t largest_part() const;
 };
-// Of covered pixel (x, y) of the model's frame.
-ErrorSplit split_error(const PreparedFrame& frame, const ModelFrame& model, int x, int y);
+// Of covered pixel (x, y) of the model's frame. `misplaced`: the pixels of the frame.
+ErrorSplit split_error(const PreparedFrame& frame, const ModelFrame& model,
+                       const std::vector<MisplacedPixel>& misplaced, int x, int y);
 
 }  // namespace phongpipe

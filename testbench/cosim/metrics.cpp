@@ -137,6 +137,12 @@ std::vector<Metric> all_metrics() {
        [](const Result& r) -> MetricValue {
          return r.accuracy.total.share(r.accuracy.total.over_two);
        }},
+      {"visibility_max_lsb", "/accuracy_split/visibility/max_lsb", "LSB", kLess,
+       "largest error by showing another triangle than the nearest",
+       [](const Result& r) -> MetricValue { return r.accuracy.visibility.largest_lsb; }},
+      {"visibility_rms_lsb", "/accuracy_split/visibility/rms_lsb", "LSB", kLess,
+       "root of its mean square",
+       [](const Result& r) -> MetricValue { return r.accuracy.visibility.rms_lsb(); }},
       {"series_max_lsb", "/accuracy_split/series/max_lsb", "LSB", kLess,
        "largest error by the second-degree series for the exact reflection",
        [](const Result& r) -> MetricValue { return r.accuracy.series.largest_lsb; }},

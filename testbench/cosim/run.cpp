@@ -71,6 +71,8 @@ std::vector<std::string> shell_words(const std::string& line) {
   return words;
 }
 
+constexpr std::string_view kNoLimit = "none";
+
 // What of a failed verification is told first.
 struct Failure {
   std::string bucket, message;
@@ -131,6 +133,12 @@ Failure failure_of(const VerificationResult& r) {
             fmt::format("{} triangles have values that do not fit their registers",
                         r.set_up.overflows)};
   }
+  if (!r.within_error()) {
+    return {fmt::format("error: {}", r.worst_pixels.front().largest_part),
+            fmt::format("{} pixels are off by more than {} LSB, at most {:.2f}",
+                        r.accuracy.pixels_over_limit, *r.options.max_error_lsb,
+                        r.accuracy.total.largest_lsb)};
+  }
   return {"budget", fmt::format("{:.2f} ns a pixel, over the budget of {:.10g}",
                                 r.frame_ns_per_pixel(), r.options.budget_ns)};
 }
@@ -169,6 +177,17 @@ const std::vector<RunOption>& run_options() {
            throw InputError(fmt::format("budget = {}: a number of ns above 0", text));
          }
          o.budget_ns = *number;
+       }},
+      {"max-error", "LSB", "Largest error against exact Phong shading that a pixel may have",
+       [](const Options& o) {
+         return o.max_error_lsb ? fmt::format("{}", *o.max_error_lsb) : std::string(kNoLimit);
+       },
+       [](Options& o, const std::string& text) {
+         const auto number = parse_number(text);
+         if (text != kNoLimit && (!number || *number < 0)) {
+           throw InputError(fmt::format("max-error = {}: a number of LSB, 0 or more", text));
+         }
+         o.max_error_lsb = number;
        }},
   };
   return all;

@@ -138,6 +138,21 @@ bool same_pixels(const Fingerprint& a, const Fingerprint& b) {
   return same_stream(a, b) && a.frame_hash == b.frame_hash;
 }
 
+std::vector<WorstPixel> describe_worst(const PreparedFrame& frame, const ModelFrame& model,
+                                       const Accuracy& accuracy) {
+  std::vector<WorstPixel> worst;
+  worst.reserve(accuracy.worst_pixels.size());
+  const auto width = static_cast<std::size_t>(frame.setup.width);
+  for (const PixelError& pixel : accuracy.worst_pixels) {
+    const int x = static_cast<int>(pixel.index % width), y = static_cast<int>(pixel.index / width);
+    const ErrorSplit split = split_error(frame, model, accuracy.misplaced, x, y);
+    worst.push_back({x, y, frame.subdivision().whole[model.framebuffer.owner(pixel.index)],
+                     pixel.error_lsb, split.output, split.exact,
+                     kErrorParts[split.largest_part()].name});
+  }
+  return worst;
+}
+
 void describe_frame(const PreparedFrame& frame, VerificationResult& result) {
   const Subdivision& subdivision = frame.subdivision();
   result.configuration = frame.setup.configuration;
@@ -197,7 +212,7 @@ bool VerificationResult::same_cycles() const {
 
 bool VerificationResult::passed() const {
   return agrees() && (!full_hardware || full_hardware->systemc.agrees()) && within_budget() &&
-         set_up.overflows == 0;
+         within_error() && set_up.overflows == 0;
 }
 
 VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
@@ -247,7 +262,12 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
     throw InputError(scene->scene.source, 0,
                      "nothing of the scene covers a pixel; look at the camera and the objects");
   }
-  result.accuracy = measure_accuracy(frame.setup, model.frame, options.pictures, options.one_core);
+  AccuracyOptions wanted;
+  wanted.pictures = options.pictures;
+  wanted.one_core = options.one_core;
+  wanted.limit_lsb = options.max_error_lsb.value_or(wanted.limit_lsb);
+  result.accuracy = measure_accuracy(frame.setup, model.frame, wanted);
+  result.worst_pixels = describe_worst(frame, model.frame, result.accuracy);
   if (options.pictures) {
     result.result_picture = picture_of(model.frame.framebuffer, result.width, result.height,
                                        frame.setup.configuration.channels);

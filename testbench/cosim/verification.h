@@ -11,6 +11,7 @@
 
 #include "model/fixed/prepared_frame.h"
 #include "testbench/accuracy/accuracy.h"
+#include "testbench/accuracy/error_chain.h"
 #include "testbench/cosim/effect_set.h"
 #include "testbench/cosim/implementation_result.h"
 #include "testbench/hardware/hardware.h"
@@ -31,6 +32,8 @@ DatapathConfiguration rtl_configuration(const DatapathConfiguration& configurati
 
 struct VerificationOptions {
   double budget_ns = 100;  // per shaded pixel, for the whole frame
+  // Largest error against exact Phong shading that a pixel may have; no limit if empty.
+  std::optional<double> max_error_lsb;
   Detail detail = Detail::span;
   int stall_percent = 0;
   std::uint32_t seed = 1;  // of the random back-pressure
@@ -44,6 +47,15 @@ struct VerificationOptions {
 // What is simulated with these options.
 Effects simulated_effects(const VerificationOptions& options);
 SimulationOptions simulation_options(const VerificationOptions& options);
+
+// One of the pixels with the largest errors. Colours are in LSB; channels in use only.
+struct WorstPixel {
+  int x = 0, y = 0;
+  std::uint32_t triangle = 0;  // shown there, of the scene even if it was split
+  double error_lsb = 0;        // the largest of its channels, without sign
+  Color output, exact;
+  std::string_view largest_part;  // of the error, see kErrorParts
+};
 
 // The same frame, simulated by SystemC hardware that has every effect. Its picture must be the same
 // to the bit.
@@ -72,7 +84,8 @@ struct VerificationResult {
   EffectSet effects;
   std::optional<FullHardwareResult> full_hardware;  // with EffectsToVerify::both
   Accuracy accuracy;
-  Picture result_picture;  // if requested, like those of `accuracy`
+  std::vector<WorstPixel> worst_pixels;  // at most kWorstPixels, the largest error first
+  Picture result_picture;                // if requested, like those of `accuracy`
 
   // Time of the RTL's datapath (with RTL only), and of the whole frame, per shaded pixel.
   double datapath_ns_per_pixel() const;
@@ -86,6 +99,9 @@ struct VerificationResult {
   bool same_cycles() const;  // of every pixel, in SystemC and RTL; true without RTL
   bool agrees() const { return systemc.agrees() && (!rtl || rtl->agrees()) && same_cycles(); }
   bool within_budget() const { return frame_ns_per_pixel() <= options.budget_ns; }
+  bool within_error() const {
+    return !options.max_error_lsb || accuracy.total.largest_lsb <= *options.max_error_lsb;
+  }
   bool passed() const;
 };
 

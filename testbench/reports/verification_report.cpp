@@ -57,10 +57,22 @@ std::string color_text(std::uint32_t color, int channels) {
   return fmt::format("0x{} ({} LSB)", hex, lsb);
 }
 
+// "12 pixels off by more than 2 LSB, at most 3.21"; empty without any.
+std::string over_limit_text(const VerificationResult& r) {
+  const std::uint64_t pixels = r.accuracy.pixels_over_limit;
+  if (pixels == 0) return {};
+  return fmt::format("{} pixel{} off by more than {:g} LSB, at most {:.2f}", grouped(pixels),
+                     pixels == 1 ? "" : "s",
+                     r.options.max_error_lsb.value_or(AccuracyOptions().limit_lsb),
+                     r.accuracy.total.largest_lsb);
+}
+
 std::string heading(const Page& page, const VerificationResult& r) {
-  return fmt::format("{} {}  {}×{}, {} pixels, hardware {} {}", page.verdict(r.passed()), r.scene,
+  const std::string errors = r.within_error() ? over_limit_text(r) : "";  // else told as a failure
+  return fmt::format("{} {}  {}×{}, {} pixels, hardware {} {}{}", page.verdict(r.passed()), r.scene,
                      r.width, r.height, grouped(r.pixels), r.hardware.name,
-                     configuration_hash(r.hardware).substr(0, 8));
+                     configuration_hash(r.hardware).substr(0, 8),
+                     errors.empty() ? "" : "; " + page.toned(Tone::warning, errors));
 }
 
 // The block that has the most to do.
@@ -77,7 +89,8 @@ std::string_view limiting_block(const VerificationResult& r) {
 }
 
 std::pair<std::string_view, double> largest_link(const Accuracy& a) {
-  const std::pair<std::string_view, double> links[] = {{"series", a.series.largest_lsb},
+  const std::pair<std::string_view, double> links[] = {{"visibility", a.visibility.largest_lsb},
+                                                       {"series", a.series.largest_lsb},
                                                        {"rounding", a.rounding.largest_lsb},
                                                        {"table", a.rom.largest_lsb},
                                                        {"output", a.output.largest_lsb}};
@@ -119,6 +132,22 @@ void report_signal(Page& page, const VerificationResult& r) {
                                             grouped(static_cast<std::uint64_t>(s.cycle)))));
 }
 
+// The pixels with the largest errors, if some error is more than --max-error allows.
+void report_worst_pixels(Page& page, const VerificationResult& r) {
+  if (r.within_error()) return;
+  page.line("error", page.toned(Tone::bad, over_limit_text(r) + "; the worst:"));
+  for (const WorstPixel& worst : r.worst_pixels) {
+    if (worst.error_lsb <= *r.options.max_error_lsb) break;
+    const auto text = [&](const Color& color) {
+      const int channels = r.configuration.channels;
+      return fmt::format("{:.2f}", fmt::join(color.data(), color.data() + channels, " "));
+    };
+    page.line("", fmt::format("{:6.2f} LSB  triangle {}, x {}, y {}: {}, exact {}; mostly {}",
+                              worst.error_lsb, worst.triangle, worst.x, worst.y, text(worst.output),
+                              text(worst.exact), worst.largest_part));
+  }
+}
+
 // The lines that tell what does not hold.
 void report_failures(Page& page, const VerificationResult& r, const ReportStyle& style) {
   report_implementation(page, "SystemC", r.systemc, r);
@@ -148,6 +177,7 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
                                      "bright, or [depth_cue] narrow?",
                                      r.set_up.overflows)));
   }
+  report_worst_pixels(page, r);
   if (!r.passed() && !style.command.empty()) {
     page.line("again",
               printable(style.command) +
@@ -340,27 +370,38 @@ ordered_json divergence_json(const VerificationResult& r, const std::string& cap
 }
 
 ordered_json report_json(const VerificationResult& r, const std::string& capsule) {
-  ordered_json json = {{"scene", r.scene},
-                       {"passed", r.passed()},
-                       {"configuration", configuration_json(r)},
-                       {"configuration_hash", configuration_hash(r.hardware)},
-                       {"detail", r.options.detail == Detail::cycle ? "cycle" : "span"},
-                       {"stall_percent", r.options.stall_percent},
-                       {"seed", r.options.seed},
-                       {"budget_ns", r.options.budget_ns},
-                       {"within_budget", r.within_budget()},
-                       {"clock_source", r.hardware.technology.source},
-                       {"limited_by", limiting_block(r)},
-                       {"notes", r.notes}};
+  ordered_json json = {
+      {"scene", r.scene},
+      {"passed", r.passed()},
+      {"configuration", configuration_json(r)},
+      {"configuration_hash", configuration_hash(r.hardware)},
+      {"detail", r.options.detail == Detail::cycle ? "cycle" : "span"},
+      {"stall_percent", r.options.stall_percent},
+      {"seed", r.options.seed},
+      {"budget_ns", r.options.budget_ns},
+      {"within_budget", r.within_budget()},
+      {"max_error_limit_lsb",
+       r.options.max_error_lsb ? ordered_json(*r.options.max_error_lsb) : ordered_json()},
+      {"within_error", r.within_error()},
+      {"clock_source", r.hardware.technology.source},
+      {"limited_by", limiting_block(r)},
+      {"notes", r.notes}};
   for (const Metric& metric : metrics()) {
     if (metric.json.empty()) continue;
     json[ordered_json::json_pointer(std::string(metric.json))] = metric.value(r);
   }
   json["worst_pixels"] = ordered_json::array();
-  for (const PixelError& pixel : r.accuracy.worst_pixels) {
-    const auto width = static_cast<std::size_t>(r.width);
-    json["worst_pixels"].push_back(
-        {{"x", pixel.index % width}, {"y", pixel.index / width}, {"error_lsb", pixel.error_lsb}});
+  for (const WorstPixel& worst : r.worst_pixels) {
+    ordered_json pixel = {{"x", worst.x},
+                          {"y", worst.y},
+                          {"error_lsb", worst.error_lsb},
+                          {"triangle", worst.triangle},
+                          {"largest_part", worst.largest_part}};
+    for (int c = 0; c < r.configuration.channels; ++c) {
+      pixel["output"].push_back(worst.output[c]);
+      pixel["exact_lsb"].push_back(worst.exact[c]);
+    }
+    json["worst_pixels"].push_back(pixel);
   }
   json["first_divergence"] = divergence_json(r, capsule);
   json["effects"] = effects_json(r);

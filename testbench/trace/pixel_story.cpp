@@ -138,7 +138,7 @@ class StoryTeller {
     story_.y = y_;
     story_.triangle = whole(winner);
     story_.color = model_.framebuffer.color(index());
-    story_.error = split_error(frame_, model_, x_, y_);
+    story_.error = split_error(frame_, model_, misplaced_pixels(setup_, model_, false), x_, y_);
     story_.depth_test = setup_.depth_test;
     story_.effects = effects_of(setup_);
     describe_triangle(winner);
@@ -303,7 +303,7 @@ void require_covered(const PreparedFrame& frame, const Framebuffer& framebuffer,
 }
 
 Pixel worst_pixel(const FrameSetup& frame, const ModelFrame& model) {
-  const Accuracy accuracy = measure_accuracy(frame, model, false);
+  const Accuracy accuracy = measure_accuracy(frame, model, {false});
   if (accuracy.worst_pixels.empty()) return {};  // told as not covered
   const std::size_t index = accuracy.worst_pixels.front().index;
   const auto width = static_cast<std::size_t>(frame.width);

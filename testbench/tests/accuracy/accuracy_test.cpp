@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "model/files/scene_file.h"
+#include "model/fixed/coverage.h"
 #include "model/fixed/prepared_frame.h"
+#include "model/shading/screen_interpolator.h"
 #include "testbench/accuracy/error_chain.h"
 #include "testbench/hardware/hardware.h"
 
@@ -45,8 +48,8 @@ TEST(ErrorChain, PartsAddUpToTheWholeAtEveryPixel) {
   std::size_t visited = 0;
   for_each_visible_pixel(m.frame.setup, m.model, [&](const ErrorChain& c) {
     ++visited;
-    const Color parts = (c.polynomial - c.exact) + (c.rounded - c.polynomial) +
-                        (c.table - c.rounded) + (c.output - c.table);
+    const Color parts = (c.shown - c.exact) + (c.polynomial - c.shown) +
+                        (c.rounded - c.polynomial) + (c.table - c.rounded) + (c.output - c.table);
     ASSERT_LT((parts - (c.output - c.exact)).abs().maxCoeff(), 1e-10);
   });
   std::size_t covered = 0;
@@ -114,6 +117,74 @@ TEST(Accuracy, ShippedScenesStayCloseToExactPhong) {
   }
 }
 
+// The triangle nearest at a pixel by a depth test in double precision, in the order of the scene.
+std::vector<std::uint32_t> nearest_triangles(const PreparedFrame& frame) {
+  const int width = frame.setup.width, height = frame.setup.height;
+  std::vector<std::uint32_t> nearest(static_cast<std::size_t>(width * height));
+  std::vector<double> depths(nearest.size(), std::numeric_limits<double>::infinity());
+  const auto& triangles = frame.geometry().triangles;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    const auto& v = triangles[t].vertices;
+    const Linear<double> depth = screen_interpolator(triangles[t])(v[0].z, v[1].z, v[2].z);
+    std::vector<RowSpan> rows;
+    cover(triangles[t], width, height, rows);
+    for (const RowSpan& row : rows) {
+      for (int x = row.x; x < row.x + row.length; ++x) {
+        const auto index = static_cast<std::size_t>(row.y * width + x);
+        const double z = depth.a * (x + 0.5) + depth.b * (row.y + 0.5) + depth.c;
+        if (z >= depths[index] - 1e-12) continue;
+        depths[index] = z;
+        nearest[index] = t;
+      }
+    }
+  }
+  return nearest;
+}
+
+// Depths of 8 bits cannot tell the teapot's lid from its handle, and 24 bits can.
+TEST(ExactVisibility, FindsEveryPixelThatShowsAnotherTriangle) {
+  for (const auto& [bits, some] : {std::pair{"depth_bits=8", true}, {"depth_bits=24", false}}) {
+    const Measured m("teapot", {bits});
+    const std::vector<std::uint32_t> nearest = nearest_triangles(m.frame);
+    std::vector<std::pair<std::size_t, std::uint32_t>> expected, found;
+    for (std::size_t i = 0; i < m.model.framebuffer.size(); ++i) {
+      if (m.model.framebuffer.covered(i) && !m.model.framebuffer.owned(i, nearest[i])) {
+        expected.emplace_back(i, nearest[i]);
+      }
+    }
+    for (const bool one_core : {false, true}) {
+      found.clear();
+      for (const MisplacedPixel& pixel : misplaced_pixels(m.frame.setup, m.model, one_core)) {
+        found.emplace_back(pixel.index, pixel.triangle);
+      }
+      EXPECT_EQ(found, expected) << bits;
+    }
+    EXPECT_EQ(expected.size() > 10, some) << bits;
+    EXPECT_EQ(m.accuracy().visibility.largest_lsb > 100, some) << bits;
+  }
+}
+
+// At depths of 2 and 12, registers scaled for 1e9 hold the same.
+TEST(ExactVisibility, CountsDepthsThatTheRegistersCannotTell) {
+  Scene scene = Measured("screen-triangles").frame.scene();
+  std::vector<ScreenTriangle> triangles(3, scene.objects[0].screen_triangles->front());
+  const double depths[] = {12, 2, 1e9};
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (ScreenVertex& vertex : triangles[t].vertices) {
+      vertex.z = depths[t];
+      if (t == 1) vertex.normal = Vec3(0.6, 0, -0.8);
+    }
+  }
+  scene.objects = {scene.objects[0]};
+  scene.objects[0].screen_triangles =
+      std::make_shared<const std::vector<ScreenTriangle>>(std::move(triangles));
+  const Accuracy accuracy = Measured(scene).accuracy();
+  EXPECT_EQ(accuracy.misplaced.size(), accuracy.visible_pixels);
+  for (const MisplacedPixel& pixel : accuracy.misplaced) EXPECT_EQ(pixel.triangle, 1U);
+  EXPECT_GT(accuracy.visibility.largest_lsb, 2);
+  EXPECT_GT(accuracy.pixels_over_limit, 0U);
+}
+
 TEST(Accuracy, WorstPixelsAreTheTenLargestErrorsOnAnyNumberOfCores) {
   for (const char* scene : {"torus", "two-planes"}) {  // of the latter, many are equal
     const Measured m(scene);
@@ -127,7 +198,7 @@ TEST(Accuracy, WorstPixelsAreTheTenLargestErrorsOnAnyNumberOfCores) {
     });
     std::sort(all.begin(), all.end());
     for (const bool one_core : {false, true}) {
-      const Accuracy accuracy = measure_accuracy(m.frame.setup, m.model, false, one_core);
+      const Accuracy accuracy = measure_accuracy(m.frame.setup, m.model, {false, one_core});
       ASSERT_EQ(accuracy.worst_pixels.size(), kWorstPixels);
       EXPECT_EQ(accuracy.worst_pixels.front().error_lsb, accuracy.total.largest_lsb);
       for (std::size_t i = 0; i < kWorstPixels; ++i) {

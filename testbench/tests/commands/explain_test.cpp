@@ -65,7 +65,7 @@ TEST_F(Explain, PartsInJsonAddUpToTheErrorExactly) {
   for (const char* scene : {"teapot", "effects/two-lights", "effects/depth-cue"}) {
     const Json story = explain({scene, "--worst"});
     const std::size_t channels = story["output"].size();
-    ASSERT_EQ(story["error_parts"].size(), 6U);
+    ASSERT_EQ(story["error_parts"].size(), 7U);
     for (std::size_t c = 0; c < channels; ++c) {
       double sum = 0;
       for (const Json& part : story["error_parts"]) sum += part[c].get<double>();

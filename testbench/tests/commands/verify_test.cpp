@@ -73,6 +73,36 @@ TEST_F(Program, VerifiesSeveralLightsAndDepthCueing) {
   }
 }
 
+TEST_F(Program, VerifyChecksTheErrorOfEveryPixel) {
+  const ProcessOutput failed =
+      run({"verify", "teapot", "--max-error", "1.4", "--json", file("r.json")});
+  EXPECT_EQ(failed.status, 1) << failed.text;
+  const nlohmann::json result = json("r.json");
+  EXPECT_EQ(result["within_error"], false);
+  EXPECT_EQ(result["worst_pixels"].size(), 10U);
+  const nlohmann::json& worst = result["worst_pixels"][0];
+  EXPECT_EQ(worst["error_lsb"], result["accuracy"]["max_lsb"]);
+  EXPECT_NE(failed.text.find(fmt::format("triangle {}, x {}, y {}", worst["triangle"].get<int>(),
+                                         worst["x"].get<int>(), worst["y"].get<int>())),
+            std::string::npos)
+      << failed.text;
+  EXPECT_NE(failed.text.find("mostly " + worst["largest_part"].get<std::string>()),
+            std::string::npos);
+  EXPECT_EQ(run({"verify", "teapot", "--max-error", "1.6"}).status, 0);
+  for (const char* bad : {"x", "-1", "nan", ""}) {
+    const ProcessOutput refused = run({"verify", "teapot", "--max-error", bad});
+    EXPECT_EQ(refused.status, 2) << bad << ": " << refused.text;
+  }
+}
+
+TEST_F(Program, VerifyTellsOfPixelsThatAreFarOff) {
+  const ProcessOutput output = run({"verify", "teapot", "--set", "depth_bits=8"});
+  EXPECT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(output.text.find(" pixels off by more than 2 LSB, at most 17"), std::string::npos)
+      << output.text;
+  EXPECT_NE(output.text.find("largest part: visibility"), std::string::npos) << output.text;
+}
+
 TEST_F(Program, VerifyTellsWhatTheSceneNeedsAndWhatThatSaves) {
   const ProcessOutput output =
       run({"verify", "sphere", "--effects", "both", "--verbose", "--json", file("r.json")});

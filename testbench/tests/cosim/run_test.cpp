@@ -32,8 +32,9 @@ TEST(RunIdentity, EverySettingOptionAndLimitCounts) {
     identities.insert(identity(changed));
     EXPECT_EQ(identities.size(), ++expected) << setting.name();
   }
-  const std::pair<const char*, const char*> options[] = {
-      {"detail", "cycle"}, {"stall", "25"}, {"seed", "7"}, {"effects", "all"}, {"budget", "80.5"}};
+  const std::pair<const char*, const char*> options[] = {{"detail", "cycle"}, {"stall", "25"},
+                                                         {"seed", "7"},       {"effects", "all"},
+                                                         {"budget", "80.5"},  {"max-error", "1.5"}};
   EXPECT_EQ(std::size(options), run_options().size());
   for (const auto& [key, value] : options) {
     RunRequest request;
@@ -89,6 +90,7 @@ TEST(RunCommand, IsReadBackAsItWas) {
                                                         {"scene.name", "'"},
                                                         {"detail", "cycle"},
                                                         {"stall", "25"},
+                                                        {"max-error", "0.75"},
                                                         {"seed", "9"},
                                                         {"effects", "both"},
                                                         {"budget", "80.5"}}) {

@@ -6,91 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
-#include "testbench/cases/random_frame.h"
+#include "testbench/tests/model/fixed/coverage_counting.h"
 
 namespace phongpipe {
 namespace {
 
 constexpr unsigned kSeed = 77;
-struct Point {  // subpixels
-  int x, y;
-};
-ScreenTriangle triangle_of(Point p, Point q, Point r) {
-  ScreenTriangle triangle;
-  const std::array<Point, 3> corners = {p, q, r};
-  for (std::size_t i = 0; i < 3; ++i) {
-    triangle.vertices[i].x = corners[i].x;
-    triangle.vertices[i].y = corners[i].y;
-  }
-  return triangle;
-}
-
-// Half of all corners fall on pixel centres or edges between pixels, where the rule decides.
-Point random_point(Random& random, int low, int high) {
-  const int grid = random.integer(0, 1) == 0 ? 1 : kSubpixels / 2;
-  const auto coordinate = [&] {
-    return random.integer(low * kSubpixels / grid, high * kSubpixels / grid) * grid;
-  };
-  const int x = coordinate();
-  return {x, coordinate()};
-}
-
-// Even-odd rule for the pixel's centre, moved by (ε, ε²): right of what it lies on, and below where
-// that is horizontal. That is the top-left rule, told without edge functions.
-bool contains(const std::vector<Point>& polygon, int x, int y) {
-  const std::int64_t px = std::int64_t{x} * kSubpixels + kSubpixels / 2;
-  const std::int64_t py = std::int64_t{y} * kSubpixels + kSubpixels / 2;
-  bool inside = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    Point a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-    if ((a.y <= py) == (b.y <= py)) continue;
-    if (a.y > b.y) std::swap(a, b);
-    const std::int64_t left = (px - a.x) * (std::int64_t{b.y} - a.y);
-    if (left < (py - a.y) * (std::int64_t{b.x} - a.x)) inside = !inside;
-  }
-  return inside;
-}
-
-class Counter {
- public:
-  Counter(int width, int height) : width_(width), height_(height), counts_(size()) {}
-  void add(const ScreenTriangle& triangle) {
-    std::vector<RowSpan> rows = {{1, 2, 3}};  // to be overwritten
-    cover(triangle, width_, height_, rows);
-    int last_y = -1;
-    for (const RowSpan& row : rows) {
-      ASSERT_GT(row.length, 0);
-      ASSERT_GT(row.y, last_y) << "rows come from the top down, one a line";
-      ASSERT_LT(row.y, height_);
-      ASSERT_GE(row.x, 0);
-      ASSERT_LE(row.x + row.length, width_);
-      last_y = row.y;
-      for (int x = row.x; x < row.x + row.length; ++x) ++counts_[at(x, row.y)];
-    }
-  }
-  // That each pixel was covered `expected(x, y)` times.
-  template <typename Expected>
-  void expect(Expected expected) const {
-    for (int y = 0; y < height_; ++y) {
-      for (int x = 0; x < width_; ++x) {
-        ASSERT_EQ(counts_[at(x, y)], expected(x, y)) << "pixel " << x << ", " << y;
-      }
-    }
-  }
-  void expect_once_within(const std::vector<Point>& polygon) const {
-    expect([&polygon](int x, int y) { return contains(polygon, x, y) ? 1 : 0; });
-  }
-  int total() const { return std::accumulate(counts_.begin(), counts_.end(), 0); }
-
- private:
-  std::size_t size() const { return static_cast<std::size_t>(width_ * height_); }
-  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * width_ + x); }
-  int width_, height_;
-  std::vector<int> counts_;
-};
 
 TEST(Coverage, OfOneTriangleIsTheTopLeftRule) {
   SCOPED_TRACE(kSeed);
@@ -99,7 +22,7 @@ TEST(Coverage, OfOneTriangleIsTheTopLeftRule) {
   for (int i = 0; i < 4000; ++i) {
     const Point p = random_point(random, -4, 20), q = random_point(random, -4, 20);
     const Point r = random_point(random, -4, 20);
-    Counter counter(16, 12), turned(16, 12);
+    CoverageCounter counter(16, 12), turned(16, 12);
     counter.add(triangle_of(p, q, r));
     turned.add(triangle_of(r, q, p));
     counter.expect_once_within({p, q, r});
@@ -112,10 +35,9 @@ TEST(Coverage, OfOneTriangleIsTheTopLeftRule) {
 
 // Drawn by hand: pixel centres at .5.
 TEST(Coverage, ASquareOfCentresTakesItsTopAndLeftEdge) {
-  const auto centre = [](int pixel) { return pixel * kSubpixels + kSubpixels / 2; };
   const Point a = {centre(2), centre(3)}, b = {centre(6), centre(3)};
   const Point c = {centre(6), centre(8)}, d = {centre(2), centre(8)};
-  Counter counter(16, 16);
+  CoverageCounter counter(16, 16);
   counter.add(triangle_of(a, b, c));
   counter.add(triangle_of(a, c, d));
   counter.expect([](int x, int y) { return x >= 2 && x < 6 && y >= 3 && y < 8 ? 1 : 0; });
@@ -134,7 +56,7 @@ TEST(Coverage, AFanCoversEachPixelOnce) {
       rim.push_back(
           {hub.x + snap(radius * std::cos(angle)), hub.y + snap(radius * std::sin(angle))});
     }
-    Counter counter(32, 32);
+    CoverageCounter counter(32, 32);
     for (std::size_t k = 0; k < rim.size(); ++k) {
       const Point& next = rim[(k + 1) % rim.size()];
       counter.add(k % 2 == 0 ? triangle_of(hub, rim[k], next) : triangle_of(next, rim[k], hub));
@@ -158,7 +80,7 @@ TEST(Coverage, AGridCoversTheImageOnce) {
             (row * kCell - 4) * kSubpixels + jitter.y};
       }
     }
-    Counter counter(kSize, kSize);
+    CoverageCounter counter(kSize, kSize);
     for (std::size_t row = 0; row < kCells; ++row) {
       for (std::size_t column = 0; column < kCells; ++column) {
         const Point a = corner[row][column], b = corner[row][column + 1];

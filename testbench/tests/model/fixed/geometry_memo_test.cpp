@@ -39,8 +39,8 @@ TEST(GeometryMemo, FramesOfOneSceneAreAsIfEachWereAlone) {
       const ModelFrame a = run_model(with_others->setup), b = run_model(alone->setup);
       ASSERT_EQ(a.colors(), b.colors());
       ASSERT_EQ(a.triangles.left_out, b.triangles.left_out);
-      const Accuracy error = measure_accuracy(with_others->setup, a, false),
-                     same = measure_accuracy(alone->setup, b, false);
+      const Accuracy error = measure_accuracy(with_others->setup, a, {false}),
+                     same = measure_accuracy(alone->setup, b, {false});
       ASSERT_EQ(error.total.sum_of_squares, same.total.sum_of_squares);
       ASSERT_EQ(error.series.sum_of_squares, same.series.sum_of_squares);
       ++compared;

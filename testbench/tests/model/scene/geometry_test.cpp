@@ -260,6 +260,24 @@ RC_GTEST_PROP(Geometry, EveryTriangleIsKeptOrCounted, ()) {
   }
 }
 
+// Clipping so far out rounds by more than a pixel.
+TEST(Geometry, VerticesStayInTheGuardBandAtTheEndsOfTheScales) {
+  Scene scene = sphere_scene();
+  scene.image.width = scene.image.height = 4096;
+  scene.camera.projection = Projection::orthographic;
+  scene.camera.vertical_extent = 1e-9;
+  scene.objects[0].primitive = "plane";
+  scene.objects[0].scale = 1e9;
+  scene.objects[0].rotate_degrees = Vec3(227, 141, 89);
+  const Geometry geometry = make_geometry(scene);
+  ASSERT_FALSE(geometry.triangles.empty());
+  for (const ScreenTriangle& triangle : geometry.triangles) {
+    for (const ScreenVertex& vertex : triangle.vertices) {
+      EXPECT_TRUE(inside_guard_band(vertex, scene.image)) << vertex.x << ", " << vertex.y;
+    }
+  }
+}
+
 // Two triangles with a common edge, listed in opposite directions, are cut at the same points.
 RC_GTEST_PROP(Clip, SharedEdgesAreCutAlike, ()) {
   const auto vertex = [] {
