@@ -159,7 +159,7 @@ TEST(ExactVisibility, FindsEveryPixelThatShowsAnotherTriangle) {
       }
       EXPECT_EQ(found, expected) << bits;
     }
-    EXPECT_EQ(expected.size() > 10, some) << bits;
+    EXPECT_EQ(!expected.empty(), some) << bits;
     EXPECT_EQ(m.accuracy().visibility.largest_lsb > 100, some) << bits;
   }
 }
