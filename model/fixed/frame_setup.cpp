@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/fixed/coverage.h"
+#include "model/fixed/gate_bound.h"
 #include "model/scene/input_error.h"
 
 namespace phongpipe {
@@ -44,6 +45,20 @@ bool any_pair(const Scene& scene, const Geometry& geometry, Condition holds) {
     return std::any_of(geometry.materials.begin(), geometry.materials.end(),
                        [&](const Material& material) { return holds(material, light); });
   });
+}
+
+// Whether the diffuse series of some material under some light cannot gate its highlight.
+bool needs_gate_series(const FixedPointFormats& formats, const Scene& scene,
+                       const Geometry& geometry) {
+  for (const Light& light : scene.lights) {
+    for (std::uint32_t i = 0; i < geometry.materials.size(); ++i) {
+      const Material& material = geometry.materials[i];
+      if (!has_highlight(material, light)) continue;
+      if (!is_lit(material, light)) return true;
+      if (diffuse_loses_sign(formats, scene, geometry, i, light)) return true;
+    }
+  }
+  return false;
 }
 
 // Whether two triangles cover the same pixel.
@@ -148,13 +163,11 @@ EffectBlocks derive_blocks(const FixedPointFormats& formats, const Scene& scene,
   blocks.diffuse = all || any_pair(scene, geometry, is_lit);
   blocks.specular = all || any_pair(scene, geometry, has_highlight);
   blocks.depth_cue = all || scene.depth_cue.has_value();
-  const bool unlit_highlight =
-      any_pair(scene, geometry, [](const Material& material, const Light& light) {
-        return has_highlight(material, light) && !is_lit(material, light);
-      });
-  blocks.gate = formats.gate_choice == GateSource::off ? GateSource::off
-                : unlit_highlight                      ? GateSource::series
-                                                       : GateSource::diffuse;
+  if (formats.gate_choice == GateSource::off) {
+    blocks.gate = GateSource::off;
+  } else if (blocks.specular && needs_gate_series(formats, scene, geometry)) {
+    blocks.gate = GateSource::series;
+  }
   return blocks;
 }
 

@@ -76,7 +76,8 @@ struct FrameSetup {
 bool is_grey(const Scene& scene, const Geometry& geometry);
 
 // The blocks that the scene's effects require, or all blocks. The gate's source is a separate
-// series if a material has a highlight and no diffuse colour; a gate chosen to be off stays off.
+// series if a material has a highlight and no diffuse colour, or one too dark to tell the sign of
+// N·L (see gate_bound.h); a gate chosen to be off stays off.
 EffectBlocks derive_blocks(const FixedPointFormats& formats, const Scene& scene,
                            const Geometry& geometry, Effects effects = Effects::derived);
 

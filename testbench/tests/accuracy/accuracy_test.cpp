@@ -185,6 +185,28 @@ TEST(ExactVisibility, CountsDepthsThatTheRegistersCannotTell) {
   EXPECT_GT(accuracy.pixels_over_limit, 0U);
 }
 
+// A diffuse colour that its register cannot hold must not switch highlights off.
+TEST(Accuracy, HighlightsOverNearlyBlackMaterialsStay) {
+  for (const char* preset : {"default", "paper-1k", "paper-8k"}) {
+    for (const double diffuse : {1e-9, 1e-4, 1e-3, 1e-2}) {
+      Scene scene = torus(false, false);
+      for (Material& material : scene.materials) {
+        material.diffuse = Color::Constant(diffuse);
+        material.specular = Color::Ones();
+      }
+      const Hardware hardware = load_hardware(preset, {});
+      const PreparedFrame frame(scene, hardware.formats, hardware.setup);
+      AccuracyOptions options;
+      options.pictures = false;
+      options.limit_lsb = 32;
+      const Accuracy accuracy = measure_accuracy(frame.setup, run_model(frame.setup), options);
+      // Pixels at the terminator's very edge may fall on either side of the gate.
+      EXPECT_LT(accuracy.pixels_over_limit, accuracy.visible_pixels / 1000) << preset << diffuse;
+      EXPECT_LT(accuracy.total.rms_lsb(), 3) << preset << " " << diffuse;
+    }
+  }
+}
+
 TEST(Accuracy, WorstPixelsAreTheTenLargestErrorsOnAnyNumberOfCores) {
   for (const char* scene : {"torus", "two-planes"}) {  // of the latter, many are equal
     const Measured m(scene);

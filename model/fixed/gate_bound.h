@@ -1,0 +1,19 @@
+// Whether the diffuse series can open and close the highlight's gate.
+#pragma once
+
+#include "model/fixed/datapath_configuration.h"
+#include "model/scene/geometry.h"
+
+namespace phongpipe {
+
+// Whether rounded diffuse coefficients may take the wrong sign where N·L is more than
+// kGateTolerance from 0, on some triangle of the material that crosses the terminator under the
+// light. Such a highlight needs the series of N·L, whose scale does not depend on the material.
+//
+// A series of scale s (LSB for N·L = 1) is off by at most rounding_bound() LSB, so its sign is
+// right wherever |N·L| > rounding_bound() / s.
+constexpr double kGateTolerance = 1.0 / 64;  // 0.9° from the terminator
+bool diffuse_loses_sign(const FixedPointFormats& formats, const Scene& scene,
+                        const Geometry& geometry, std::uint32_t material, const Light& light);
+
+}  // namespace phongpipe
