@@ -22,10 +22,12 @@ module pixel_datapath #(
     parameter int ROM_ADDRESS_BITS   = 10,
     parameter int ROM_DATA_BITS      = 8,
     parameter int GATE               = `PHONGPIPE_GATE_DIFFUSE,
+    parameter int SPECULAR_GUARD     = `PHONGPIPE_GUARD_BITS,
+    parameter int ROM_LAYOUT         = `PHONGPIPE_LAYOUT_PLAIN,
+    parameter int ROM_OCTAVES        = 4,   // of the octave layouts
     localparam int DIFFUSE_WIDTH  = 1 + `PHONGPIPE_GUARD_BITS
                                   + `PHONGPIPE_OUTPUT_BITS + DIFFUSE_FRACTION,
-    localparam int SPECULAR_WIDTH = 1 + `PHONGPIPE_GUARD_BITS + ROM_ADDRESS_BITS
-                                  + SPECULAR_FRACTION,
+    localparam int SPECULAR_WIDTH = 1 + SPECULAR_GUARD + ROM_ADDRESS_BITS + SPECULAR_FRACTION,
     localparam int X_BITS         = `PHONGPIPE_COORDINATE_BITS,
     localparam int LENGTH_BITS    = `PHONGPIPE_LENGTH_BITS,
     localparam int COLOR_BITS     = `PHONGPIPE_OUTPUT_BITS,
@@ -74,6 +76,12 @@ module pixel_datapath #(
   end
   if (GATE < `PHONGPIPE_GATE_OFF || GATE > `PHONGPIPE_GATE_SERIES) begin : GATE_out_of_range
     GATE_must_be_0_to_2 stop ();
+  end
+  if (ROM_LAYOUT < `PHONGPIPE_LAYOUT_PLAIN || ROM_LAYOUT > `PHONGPIPE_LAYOUT_BIPARTITE) begin : layout_out_of_range
+    ROM_LAYOUT_must_be_0_to_2 stop ();
+  end
+  if (SPECULAR_GUARD < 1 || SPECULAR_GUARD > `PHONGPIPE_SPECULAR_GUARD_BITS) begin : guard_out_of_range
+    SPECULAR_GUARD_must_be_1_to_12 stop ();
   end
   if (SPECULAR != 0 && DIFFUSE == 0 && GATE == `PHONGPIPE_GATE_DIFFUSE) begin : GATE_without_series
     GATE_diffuse_needs_DIFFUSE stop ();
@@ -124,7 +132,7 @@ module pixel_datapath #(
     end
   end
 
-  logic [CHANNELS*ROM_DATA_BITS-1:0] s2_words;
+  logic [CHANNELS*ROM_DATA_BITS-1:0] s2_words, s2_increments;
   logic [CHANNELS-1:0] s1_lit;  // channel by channel: N·L > 0 as its diffuse series has it
   logic s2_open;                // whether the highlight counts
   if (SPECULAR != 0) begin : specular
@@ -142,14 +150,18 @@ module pixel_datapath #(
     );
     exponent_rom #(
         .VALUE_WIDTH (SPECULAR_WIDTH),
+        .GUARD_BITS  (SPECULAR_GUARD),
         .ADDRESS_BITS(ROM_ADDRESS_BITS),
-        .WORD_BITS   (CHANNELS * ROM_DATA_BITS)
+        .WORD_BITS   (CHANNELS * ROM_DATA_BITS),
+        .LAYOUT      (ROM_LAYOUT),
+        .OCTAVES     (ROM_OCTAVES)
     ) rom (
         .clk,
         .address_enable(s1_ready),
         .read_enable(s2_ready),
         .v(fd_specular_v),
         .word(s2_words),
+        .increment(s2_increments),
         .write(rom_write),
         .write_address(rom_address),
         .write_word(rom_data)
@@ -180,7 +192,7 @@ module pixel_datapath #(
       wire unused_gate = &{1'b0, span_gate_v, span_gate_d1, span_gate_d2};
     end
   end else begin : no_specular
-    assign s2_words = '0;
+    assign {s2_words, s2_increments} = '0;
     assign s2_open = 1'b0;
     wire unused = &{1'b0, fd_highlight, fd_step_specular, span_specular_v, span_specular_d1, span_specular_d2,
                     span_gate_v, span_gate_d1, span_gate_d2, rom_write, rom_address, rom_data, s1_lit};
@@ -219,7 +231,7 @@ module pixel_datapath #(
         .level(fd_level[c*DIFFUSE_WIDTH+:DIFFUSE_WIDTH]),
         .lit(s1_lit[c]),
         .highlight_open(s2_open),
-        .word(s2_words[c*ROM_DATA_BITS+:ROM_DATA_BITS]),
+        .word(s2_words[c*ROM_DATA_BITS+:ROM_DATA_BITS] + s2_increments[c*ROM_DATA_BITS+:ROM_DATA_BITS]),
         .sum(s3_sum[c*SUM_BITS+:SUM_BITS]),
         .color(s3_color[c*COLOR_BITS+:COLOR_BITS])
     );

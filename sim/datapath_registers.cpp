@@ -81,7 +81,8 @@ void DatapathRegisters::advance(const Ready& ready) {
     follow(add_, read_);
     for (std::size_t c = 0; c < channels(); ++c) {
       const std::int32_t word =
-          read_.open ? aligned_word(configuration_, read_.word[c]) : std::int32_t{0};
+          read_.open ? aligned_word(configuration_, read_.word[c] + read_.increment[c])
+                     : std::int32_t{0};
       add_.sum[c] = light_sum(configuration_, read_.clamped[c], word);
     }
   }
@@ -94,7 +95,9 @@ void DatapathRegisters::advance(const Ready& ready) {
     read_.open = configuration_.specular && open && compare_.highlight;
     for (std::size_t c = 0; c < channels(); ++c) {
       if (configuration_.specular) {
-        read_.word[c] = table_[c][static_cast<std::size_t>(compare_.address)];
+        const RomPlaces places = ExponentRom::places(configuration_, compare_.address);
+        read_.word[c] = table_[c][places.base];
+        if (places.increment) read_.increment[c] = table_[c][*places.increment];
       }
       read_.clamped[c] = compare_.lit[c] ? compare_.diffuse_cut[c] : compare_.level_cut[c];
     }
@@ -150,7 +153,7 @@ DatapathOutputs DatapathRegisters::clock(const DatapathInputs& inputs) {
   if (inputs.table != nullptr && configuration_.specular) {
     for (std::size_t c = 0; c < inputs.table->roms.size(); ++c) {
       const auto address = static_cast<std::size_t>(inputs.rom_address);
-      table_[c][address] = inputs.table->roms[c].words()[address];
+      table_[c][address] = inputs.table->roms[c].contents()[address];
     }
   }
   if (loaded) {
@@ -326,6 +329,18 @@ class SignalTable {
              false);
   }
 
+  template <typename Of>
+  void add_words(const std::string& name, Of of) {
+    const int bits = configuration_.rom_data_bits;
+    for_channels([&](const std::string& channel, std::size_t c) {
+      DatapathSignal& word = add(DatapathStage::read, channel, name, bits,
+                                 [of, c](const Registers& r) { return of(r)[c]; });
+      in_units(word, "LSB", bits - kOutputBits, false);
+      word.packed = name + "s";
+      word.rtl_lsb = static_cast<int>(c) * bits;
+    });
+  }
+
   void add_read() {
     constexpr auto kStage = DatapathStage::read;
     const auto of = [](const Registers& r) -> const auto& {
@@ -333,13 +348,12 @@ class SignalTable {
     };
     add_place(kStage, "", "s2", of);
     if (configuration_.specular) {
-      for_channels([&](const std::string& channel, std::size_t c) {
-        DatapathSignal& word = add(kStage, channel, "s2_word", configuration_.rom_data_bits,
-                                   [c](const Registers& r) { return r.read().word[c]; });
-        in_units(word, "LSB", configuration_.rom_data_bits - kOutputBits, false);
-        word.packed = "s2_words";
-        word.rtl_lsb = static_cast<int>(c) * configuration_.rom_data_bits;
-      });
+      add_words(
+          "s2_word", [](const Registers& r) -> const auto& { return r.read().word; });
+      if (configuration_.rom_layout == RomLayout::bipartite) {
+        add_words(
+            "s2_increment", [](const Registers& r) -> const auto& { return r.read().increment; });
+      }
       add(kStage, "", "s2_open", 1, [](const Registers& r) { return r.read().open; });
     }
     for_channels([&](const std::string& channel, std::size_t c) {

@@ -54,7 +54,7 @@ class DatapathRegisters : public ClockedDatapath {
     bool highlight = false, open = false;  // open: of a separate gate series
   };
   struct Read : StageRegisters {
-    std::array<std::int32_t, 3> word = {}, clamped = {};
+    std::array<std::int32_t, 3> word = {}, increment = {}, clamped = {};
     bool open = false;
   };
   struct Add : StageRegisters {

@@ -17,6 +17,10 @@ using OutputColor = std::array<std::uint8_t, 3>;  // of the channels in use
 // the triangle, by less than a factor of two while max |Nᵢ − C| / |C| < 1.86.
 constexpr int kGuardBits = 1;
 
+// The same of the specular series in the octave layouts, at most: there full scale is the reach of
+// the narrowest highlight, of shininess 10,000.
+constexpr int kSpecularGuardBits = 12;
+
 constexpr int kCoordinateBits = 12;               // x and y, 0 … 4095
 constexpr int kLengthBits = kCoordinateBits + 1;  // pixels in a span, 1 … 4096
 
@@ -38,8 +42,8 @@ constexpr int diffuse_width(int fraction_bits) {
   return 1 + kGuardBits + kOutputBits + fraction_bits;
 }
 // Bits of a specular register: sign, guard, ROM address, fraction.
-constexpr int specular_width(int address_bits, int fraction_bits) {
-  return 1 + kGuardBits + address_bits + fraction_bits;
+constexpr int specular_width(int guard_bits, int address_bits, int fraction_bits) {
+  return 1 + guard_bits + address_bits + fraction_bits;
 }
 
 }  // namespace phongpipe

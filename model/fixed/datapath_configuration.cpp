@@ -16,8 +16,16 @@ const Settings<FixedPointFormats>& FixedPointFormats::settings() {
       number_setting("datapath", "specular_fraction_bits", &F::specular_fraction_bits, "bits", 1,
                      25, "fraction of the specular series, below one ROM address",
                      "SPECULAR_FRACTION"),
+      choice_setting("datapath", "rom_layout", &F::rom_layout, {"plain", "octave", "bipartite"},
+                     "the exponent ROM has a word for each address; or finer ones the brighter the "
+                     "highlight; or these in two tables whose words are added"),
       number_setting("datapath", "rom_address_bits", &F::rom_address_bits, "bits", 6, 13,
-                     "the exponent ROM has 2^this words: 64 to 8192", "ROM_ADDRESS_BITS"),
+                     "of the exponent ROM; plain, it has 2^this words: 64 to 8192",
+                     "ROM_ADDRESS_BITS"),
+      number_setting("datapath", "rom_octaves", &F::rom_octaves, "octaves", 1, 4,
+                     "that octave and bipartite tell apart; as many halve the ROM as often, and "
+                     "make it coarser for fainter highlights",
+                     "ROM_OCTAVES"),
       number_setting("datapath", "rom_data_bits", &F::rom_data_bits, "bits", 4, 12,
                      "of a word of the exponent ROM, a fraction of full scale", "ROM_DATA_BITS"),
       choice_setting("datapath", "index_rounding", &F::index_rounding, {"nearest", "truncate"},
@@ -72,7 +80,9 @@ std::vector<std::pair<std::string_view, int>> rtl_parameters(
       {"DIFFUSE", datapath.diffuse},
       {"SPECULAR", datapath.specular},
       {"DEPTH_CUE", datapath.depth_cue},
-      {"GATE", static_cast<int>(datapath.gate)}};
+      {"GATE", static_cast<int>(datapath.gate)},
+      {"SPECULAR_GUARD", datapath.specular_guard_bits},
+      {"ROM_LAYOUT", static_cast<int>(datapath.rom_layout)}};
   for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
     if (!setting.rtl_parameter.empty()) {
       parameters.emplace_back(setting.rtl_parameter, setting.get(datapath));

@@ -24,6 +24,16 @@ constexpr int kSetupExtraBits = 20;
 // the middle, which equals rounding the address to nearest. `truncate`: the lower end.
 enum class IndexRounding { nearest, truncate };
 
+// Where the word of an address is, see exponent_rom.h.
+enum class RomLayout { plain, octave, bipartite };
+
+// Integer bits of the specular series above full scale: in the octave layouts a multiple of 4, so
+// that few datapaths serve all scenes. 4 are enough for a shininess of up to 36.
+constexpr int kSpecularGuardStep = 4;
+constexpr int least_specular_guard_bits(RomLayout layout) {
+  return layout == RomLayout::plain ? kGuardBits : kSpecularGuardStep;
+}
+
 // What enables the specular term. `off`: always enabled, as in the paper. `diffuse`: the sign of
 // the diffuse series. `series`: a separate series of N·L, for a diffuse colour of 0.
 enum class GateSource { off, diffuse, series };
@@ -36,7 +46,9 @@ struct FixedPointFormats {
   ChannelChoice channel_choice = ChannelChoice::automatic;
   int diffuse_fraction_bits = 16;   // below one output LSB
   int specular_fraction_bits = 12;  // below one ROM address
+  RomLayout rom_layout = RomLayout::plain;
   int rom_address_bits = 10;
+  int rom_octaves = 4;    // of the octave layouts
   int rom_data_bits = 8;  // 1 LSB is full scale / 2^rom_data_bits
   IndexRounding index_rounding = IndexRounding::nearest;
   // The scene decides between `diffuse` and `series` (see derive_blocks).
@@ -47,6 +59,11 @@ struct FixedPointFormats {
   static const Settings<FixedPointFormats>& settings();
 };
 
+// Fraction bits of the T_i, for a series of `fraction_bits` in the datapath.
+inline int setup_fraction_bits(const FixedPointFormats& formats, int fraction_bits) {
+  return fraction_bits + (formats.anchor == Anchor::span ? kSetupExtraBits : 0);
+}
+
 // The blocks of the datapath that are built, as the scene's effects require.
 struct EffectBlocks {
   int channels = 1;        // 1 (grey) or 3
@@ -54,6 +71,7 @@ struct EffectBlocks {
   bool specular = true;    // series, gate and exponent_rom
   bool depth_cue = false;  // a linear series, one multiplier per channel, kDepthCueLatency stages
   GateSource gate = GateSource::diffuse;
+  int specular_guard_bits = kGuardBits;  // integer bits of the specular series above full scale
 };
 
 // The pixel datapath: formats and blocks, and sizes derived from them.
@@ -62,22 +80,38 @@ struct DatapathConfiguration : FixedPointFormats, EffectBlocks {
   // Diffuse (and gate) series: s(1 + kGuardBits + kOutputBits).(diffuse_fraction_bits), in output
   // LSB.
   int diffuse_width() const { return phongpipe::diffuse_width(diffuse_fraction_bits); }
-  // Specular series: integer part is the ROM address, so full scale is 2^rom_address_bits.
+  // Specular series: s(1 + specular_guard_bits + rom_address_bits).(specular_fraction_bits), in
+  // addresses of the ROM.
   int specular_width() const {
-    return phongpipe::specular_width(rom_address_bits, specular_fraction_bits);
+    return phongpipe::specular_width(specular_guard_bits, rom_address_bits, specular_fraction_bits);
   }
   // Fraction bits that color_sum keeps: those of the ROM words below one output LSB.
   int sum_fraction_bits() const { return std::max(0, rom_data_bits - kOutputBits); }
-  int rom_words() const { return 1 << rom_address_bits; }
+  int rom_addresses() const { return 1 << rom_address_bits; }
+  // Bits of an address below its leading one in the octave layouts; in the bipartite layout the low
+  // ones of these, and as many in the middle.
+  int rom_block_bits() const { return rom_address_bits - rom_octaves; }
+  int rom_low_bits() const { return (rom_block_bits() + 2) / 3; }
+  // Words of one channel: of all tables, and of the first, which holds the bases.
+  int rom_words() const { return rom_bases() * (rom_layout == RomLayout::bipartite ? 2 : 1); }
+  int rom_bases() const {
+    const int blocks = rom_octaves + 1;  // one for what is below
+    return rom_layout == RomLayout::plain    ? rom_addresses()
+           : rom_layout == RomLayout::octave ? blocks << rom_block_bits()
+                                             : blocks << (rom_block_bits() - rom_low_bits());
+  }
 
   bool has_gate_series() const { return specular && gate == GateSource::series; }
   int series() const {
     return (diffuse ? channels : 0) + (specular ? 1 : 0) + (has_gate_series() ? 1 : 0);
   }
-  // Additions per pixel: two per series, and one per channel to add diffuse and specular. Depth
-  // cueing takes one for its linear series and two per channel to move it towards the cue colour.
+  // Additions per pixel: two per series, one per channel to add diffuse and specular, and another
+  // for the increments of a bipartite ROM. Depth cueing takes one for its linear series and two per
+  // channel to move it towards the cue colour.
   int adders() const {
-    return 2 * series() + (specular ? channels : 0) + (depth_cue ? 1 + 2 * channels : 0);
+    const int per_highlight = rom_layout == RomLayout::bipartite ? 2 : 1;
+    return 2 * series() + (specular ? per_highlight * channels : 0) +
+           (depth_cue ? 1 + 2 * channels : 0);
   }
   int multipliers() const { return depth_cue ? channels : 0; }
   int rom_bits() const { return specular ? rom_words() * channels * rom_data_bits : 0; }

@@ -38,6 +38,39 @@ void require_exponents(const Scene& scene, const Geometry& geometry) {
   }
 }
 
+// What the tables of the octave layouts hold.
+void require_shininess(const Scene& scene, const Geometry& geometry,
+                       const DatapathConfiguration& configuration) {
+  if (configuration.rom_layout == RomLayout::plain) return;
+  for (const Material& material : geometry.materials) {
+    const double n = material.shininess;
+    if (n == 0 || (n >= kLeastShininess && n <= kMostShininess)) continue;
+    if ((material.specular == 0).all()) continue;
+    throw InputError(
+        scene.source, 0,
+        fmt::format("material {}: shininess = {:g}: an octave table errs by {:.2g} of full scale "
+                    "there; 0, or from {:g} to {:g}",
+                    material.name, n, ExponentRom::largest_error(configuration, n), kLeastShininess,
+                    kMostShininess));
+  }
+}
+
+// Integer bits above full scale that hold cosines of highlights from −2 to 1.
+int specular_guard_bits(const FixedPointFormats& formats, const Scene& scene,
+                        const Geometry& geometry) {
+  int bits = least_specular_guard_bits(formats.rom_layout);
+  if (formats.rom_layout == RomLayout::plain) return bits;
+  double least_reach = 1;
+  for (const Light& light : scene.lights) {
+    for (const Material& material : geometry.materials) {
+      if (!has_highlight(material, light)) continue;
+      least_reach = std::min(least_reach, highlight_reach(formats, material.shininess));
+    }
+  }
+  while (bits < kSpecularGuardBits && std::ldexp(least_reach, bits) < 3) bits += kSpecularGuardStep;
+  return bits;
+}
+
 // Whether `holds` for some material under some light.
 template <typename Condition>
 bool any_pair(const Scene& scene, const Geometry& geometry, Condition holds) {
@@ -129,7 +162,8 @@ LightInput<double> light_input(const Scene& scene, const Light& light, double la
   terms.spot_exponent = light.spot_exponent;
   terms.fold = material.shininess > 0 ? 1 / material.shininess : 0;
   terms.sharpness = std::max(0.0, material.shininess - 1);
-  input.specular_scale = configuration.rom_words();
+  const double reach = highlight_reach(configuration, material.shininess);
+  input.specular_scale = configuration.rom_addresses() / reach;
   input.gate_scale = kOutputMax;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto channel = static_cast<Eigen::Index>(c);
@@ -163,6 +197,7 @@ EffectBlocks derive_blocks(const FixedPointFormats& formats, const Scene& scene,
   blocks.diffuse = all || any_pair(scene, geometry, is_lit);
   blocks.specular = all || any_pair(scene, geometry, has_highlight);
   blocks.depth_cue = all || scene.depth_cue.has_value();
+  blocks.specular_guard_bits = specular_guard_bits(formats, scene, geometry);
   if (formats.gate_choice == GateSource::off) {
     blocks.gate = GateSource::off;
   } else if (blocks.specular && needs_gate_series(formats, scene, geometry)) {
@@ -189,6 +224,7 @@ FrameSetup::FrameSetup(const Scene& scene_, const Geometry& geometry_,
   depth_test =
       effects == Effects::all || (memo != nullptr ? memo->overlap(some_overlap) : some_overlap());
   require_exponents(*scene, *geometry);
+  require_shininess(*scene, *geometry, configuration);
   if (scene->depth_cue) cue_color = output_color(scene->depth_cue->color);
   for (std::uint32_t pass = 0; pass < passes; ++pass) {
     const double largest = largest_attenuation(scene->lights[pass], *geometry);
@@ -233,6 +269,10 @@ MaterialSetup FrameSetup::set_up_material(std::uint32_t pass, const Material& ma
   form.attenuated = is_attenuated(light);
   form.spot_factor = has_spot_factor(light);
   setup.light = light_input(*scene, light, largest_attenuation, material, configuration);
+  setup.specular_offset_bits =
+      setup_fraction_bits(configuration, configuration.specular_fraction_bits);
+  setup.specular_offset = std::llround(std::ldexp(
+      configuration.rom_addresses() - setup.light.specular_scale, setup.specular_offset_bits));
   for (std::size_t c = 0; c < 3; ++c) {
     const auto channel = static_cast<Eigen::Index>(c);
     const double ambient =

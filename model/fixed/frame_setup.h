@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -31,9 +32,17 @@ struct MaterialSetup {
   SeriesPlan plan;
   LightInput<double> light;  // scales: output LSB for diffuse and gate, addresses for specular
   std::array<std::int64_t, 3> level;  // ambient plus the rounding half, in the diffuse format
-  std::uint32_t table = 0;            // index into FrameSetup::tables
+  // What is added to T0 of the specular series, with so many fraction bits: the series counts
+  // addresses down from the brightest, see exponent_rom.h.
+  std::int64_t specular_offset = 0;
+  int specular_offset_bits = 0;
+  std::uint32_t table = 0;  // index into FrameSetup::tables
   // The first address of the table at which some word is not 0; the number of words if all are 0.
   int first_visible_address = 0;
+
+  double offset_in_addresses() const {
+    return std::ldexp(static_cast<double>(specular_offset), -specular_offset_bits);
+  }
 };
 
 struct FrameSetup {

@@ -57,8 +57,9 @@ struct LaneFormat {
         unused_specular(kBits - configuration.specular_width()),
         sum_fraction(configuration.sum_fraction_bits()),
         diffuse_shift(kBits - (1 + kGuardBits + kOutputBits) - sum_fraction),
-        address_shift(kBits - (1 + kGuardBits + configuration.rom_address_bits)),
-        last_address(static_cast<Word>(configuration.rom_words() - 1)) {}
+        address_shift(kBits -
+                      (1 + configuration.specular_guard_bits + configuration.rom_address_bits)),
+        last_address(static_cast<Word>(configuration.rom_addresses() - 1)) {}
 
   static constexpr int kBits = static_cast<int>(8 * sizeof(Word));
   static constexpr int kUnusedCue = kBits - kCueWidth;

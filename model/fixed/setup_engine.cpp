@@ -182,11 +182,14 @@ void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
   }
   if (plan.bound_highlight && is_present(plan.specular)) {
     // What is below 0 reads the word at 0, as long as it does not wrap.
-    const double addresses = material.light.specular_scale;
-    const double off = noise * addresses + slack(configuration.specular_fraction_bits);
-    plan.highlight_invisible = material.first_visible_address > 0 &&
-                               highlight.high * addresses + off < material.first_visible_address &&
-                               highlight.low * addresses - off > -addresses * (1 << kGuardBits);
+    const double scale = material.light.specular_scale, offset = material.offset_in_addresses();
+    const double off = noise * scale + slack(configuration.specular_fraction_bits);
+    const double lowest =
+        -std::ldexp(configuration.rom_addresses(), configuration.specular_guard_bits);
+    plan.highlight_invisible =
+        material.first_visible_address > 0 &&
+        highlight.high * scale + offset + off < material.first_visible_address &&
+        highlight.low * scale + offset - off > lowest;
     if (plan.highlight_invisible && frame_->effects == Effects::derived) {
       plan.specular = plan.gate = SeriesForm::absent;
     }
@@ -239,6 +242,7 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
     setup.specular = round_coefficients(
         exact.specular, setup_fraction_bits(configuration, configuration.specular_fraction_bits),
         setup.overflow);
+    setup.specular.t0 = wrap_add(setup.specular.t0, setup.material->specular_offset);
   }
   if (setup.plan.depth) {
     setup.depth = round_coefficients(exact.depth, kDepthFraction, setup.overflow);

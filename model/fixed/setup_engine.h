@@ -57,9 +57,4 @@ class SetupEngine {
   const FrameSetup* frame_;
 };
 
-// Fraction bits of the T_i, for a series of `fraction_bits` in the datapath.
-inline int setup_fraction_bits(const FixedPointFormats& formats, int fraction_bits) {
-  return fraction_bits + (formats.anchor == Anchor::span ? kSetupExtraBits : 0);
-}
-
 }  // namespace phongpipe

@@ -36,6 +36,8 @@ class PassChain {
     const Geometry& geometry = *frame.geometry;
     const Material& material = geometry.materials[geometry.triangles[setup.triangle].material];
     real_ = SetupEngine(frame).coefficients(setup.triangle, setup.pass, setup.x, setup.y);
+    scale_ = setup.material->light.specular_scale;
+    offset_ = setup.material->offset_in_addresses();
     if (setup.pass == 0) {
       ambient_ = kOutputMax * frame.scene->shading.ambient_light * material.ambient;
     }
@@ -89,7 +91,7 @@ class PassChain {
     if (!is_present(full_plan_.specular) || !span.row.lit) return;
     const bool real_open = open(real, is_present(full_plan_.gate) ? real_.gate(x, y) : 0);
     const Color real_highlight =
-        real_open ? full_highlight(real_.specular(x, y)) : Color(Color::Zero());
+        real_open ? full_highlight(real_.specular(x, y) + offset_) : Color(Color::Zero());
     light.polynomial += real_highlight;
     if (!span.highlight) {  // left out, as the table's words are 0
       light.rounded += real_highlight;
@@ -102,7 +104,9 @@ class PassChain {
     light.rounded += full_highlight(static_cast<double>(specular) * specular_unit_);
     const int address = ExponentRom::address(configuration_, specular);
     if (links_ == Links::all) {
-      light.address += highlight_at(ExponentRom::entry_x(configuration_, address));
+      const double power =
+          ExponentRom::powers(configuration_, table_->shininess)[static_cast<std::size_t>(address)];
+      light.address += kOutputMax * table_->specular * power;
     }
     for (std::size_t c = 0; c < channels; ++c) {
       light.table[static_cast<Eigen::Index>(c)] +=
@@ -117,10 +121,8 @@ class PassChain {
   }
   // Of a value of the specular series, in addresses.
   Color full_highlight(double address) const {
-    return highlight_at(std::clamp(address / configuration_.rom_words(), 0.0, 1.0));
-  }
-  Color highlight_at(double x) const {
-    return kOutputMax * table_->specular * exact_power(x, table_->shininess);
+    const double x = (address - offset_) / scale_;
+    return kOutputMax * table_->specular * exact_power(std::clamp(x, 0.0, 1.0), table_->shininess);
   }
   bool open(const std::array<double, 3>& diffuse, double gate) const {
     switch (configuration_.gate) {
@@ -141,6 +143,7 @@ class PassChain {
   SeriesPlan full_plan_;                 // nothing left out
   double diffuse_unit_, specular_unit_;  // LSB and addresses in one unit of the registers
   double word_unit_;                     // LSB in one unit of a ROM word
+  double scale_, offset_;                // of the specular series, in addresses
   const HighlightTable* table_ = nullptr;
   TriangleCoefficients<double> real_;
   Color ambient_ = Color::Zero(), rounded_ambient_ = Color::Zero();

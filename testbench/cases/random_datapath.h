@@ -14,7 +14,9 @@ inline std::string text(const DatapathConfiguration& c) {
   return "channels " + std::to_string(c.channels) + ", diffuse " +
          (c.diffuse ? std::to_string(c.diffuse_fraction_bits) : "left out") + ", specular " +
          (c.specular ? std::to_string(c.specular_fraction_bits) : "left out") + ", rom " +
-         std::to_string(c.rom_address_bits) + " x " + std::to_string(c.rom_data_bits) + ", gate " +
+         std::to_string(c.rom_address_bits) + " x " + std::to_string(c.rom_data_bits) +
+         " (layout " + std::to_string(static_cast<int>(c.rom_layout)) + ", " +
+         std::to_string(c.rom_octaves) + " octaves)" + ", gate " +
          std::to_string(static_cast<int>(c.gate)) + (c.depth_cue ? ", depth cueing" : "");
 }
 
@@ -33,6 +35,10 @@ inline DatapathConfiguration random_configuration(Random& random) {
   c.specular_fraction_bits = in_range_or_at_an_end(kMinSpecularFraction, kMaxSpecularFraction);
   c.rom_address_bits = in_range_or_at_an_end(kMinRomAddressBits, kMaxRomAddressBits);
   c.rom_data_bits = in_range_or_at_an_end(kMinRomDataBits, kMaxRomDataBits);
+  c.rom_layout = static_cast<RomLayout>(random.integer(0, 2));
+  c.rom_octaves = random.integer(1, 4);
+  c.specular_guard_bits = least_specular_guard_bits(c.rom_layout) *
+                          (c.rom_layout == RomLayout::plain ? 1 : random.integer(1, 3));
   c.anchor = random.integer(0, 1) == 0 ? Anchor::triangle : Anchor::span;
   c.gate = static_cast<GateSource>(random.integer(0, 2));
   if (c.specular && !c.diffuse && c.gate == GateSource::diffuse) c.gate = GateSource::series;

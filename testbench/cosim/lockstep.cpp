@@ -67,16 +67,19 @@ void Lockstep::compare_registers() {
 void Lockstep::compare_table() {
   if (!table_written_) return;
   table_written_ = false;
-  const RtlSignalView* const words = signals_.find("pixel_datapath.specular.rom", "table_words");
-  if (words == nullptr || words->elements != configuration_.rom_words()) return;
   const int bits = configuration_.rom_data_bits;
-  for (int address = 0; address < words->elements; ++address) {
-    for (int c = 0; c < configuration_.channels; ++c) {
-      differs(delivered_,
-              {words->scope, fmt::format("{}[{}]", words->name, address), bits, cycle_,
-               model_.table(static_cast<std::size_t>(c))[static_cast<std::size_t>(address)],
-               static_cast<std::int64_t>(words->bits(c * bits, bits, address))});
+  int begin = 0;  // of the memory's words in the table
+  for (const RtlSignalView* const words : rom_memories(signals_)) {
+    if (begin + words->elements > configuration_.rom_words()) return;
+    for (int i = 0; i < words->elements; ++i) {
+      for (int c = 0; c < configuration_.channels; ++c) {
+        differs(delivered_,
+                {words->scope, fmt::format("{}[{}]", words->name, i), bits, cycle_,
+                 model_.table(static_cast<std::size_t>(c))[static_cast<std::size_t>(begin + i)],
+                 static_cast<std::int64_t>(words->bits(c * bits, bits, i))});
+      }
     }
+    begin += words->elements;
   }
 }
 

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
       for (const int channels : {1, 3}) {
         phongpipe::DatapathConfiguration datapath{hardware.formats, {}};
         datapath.channels = channels;
+        datapath.specular_guard_bits = phongpipe::least_specular_guard_bits(datapath.rom_layout);
         configurations.push_back(datapath);
       }
     }

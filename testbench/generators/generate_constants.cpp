@@ -21,6 +21,10 @@ int main() {
   define("GATE_OFF", static_cast<int>(GateSource::off));
   define("GATE_DIFFUSE", static_cast<int>(GateSource::diffuse));
   define("GATE_SERIES", static_cast<int>(GateSource::series));
+  define("LAYOUT_PLAIN", static_cast<int>(RomLayout::plain));
+  define("LAYOUT_OCTAVE", static_cast<int>(RomLayout::octave));
+  define("LAYOUT_BIPARTITE", static_cast<int>(RomLayout::bipartite));
+  define("SPECULAR_GUARD_BITS", kSpecularGuardBits);
   define("DATAPATH_LATENCY", kDatapathLatency);
   define("DEPTH_CUE_LATENCY", kDepthCueLatency);
   // Where a parameter is out of range, elaboration stops in every tool at a module that does not

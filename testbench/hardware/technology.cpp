@@ -45,13 +45,15 @@ double Technology::clock_ns(const DatapathConfiguration& configuration) const {
   std::vector<int> sizes;
   for (const Point& point : points) sizes.push_back(point.address_bits);
   std::sort(sizes.begin(), sizes.end());
-  const auto size = std::lower_bound(sizes.begin(), sizes.end(), configuration.rom_address_bits);
+  int table_bits = 0;  // the table has up to 2^this words
+  while (1 << table_bits < configuration.rom_bases()) ++table_bits;
+  const auto size = std::lower_bound(sizes.begin(), sizes.end(), table_bits);
   const Point* base = wide_enough(points, sizes.front(), width);
   if (size == sizes.end() || base == nullptr) {
     throw InputError(fmt::format(
         "technology {} has no clock for {} bits and a ROM of 2^{} words; choose a smaller "
         "configuration or the card `generic`",
-        name, width, configuration.rom_address_bits));
+        name, width, table_bits));
   }
   const bool larger_table = *size != sizes.front();
   const double ns =

@@ -65,8 +65,10 @@ BlockValues block_values(const PixelStory& story, const SpanStory& span) {
   BlockValues values;
   if (f.specular) {
     values.address = span.compare.address;
-    values.table_x = ExponentRom::entry_x(f, span.compare.address);
-    values.word = channels.of(span.read.word, f.rom_data_bits - kOutputBits);
+    values.table_x = ExponentRom::entry_x(f, span.compare.address, story.material.shininess);
+    std::array<std::int32_t, 3> words = span.read.word;
+    for (std::size_t c = 0; c < words.size(); ++c) words[c] += span.read.increment[c];
+    values.word = channels.of(words, f.rom_data_bits - kOutputBits);
     values.open = span.read.open;
   }
   values.lit = channels.of(span.compare.lit);

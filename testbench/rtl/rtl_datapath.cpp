@@ -79,7 +79,7 @@ DatapathOutputs RtlDatapath::clock(const DatapathInputs& inputs) {
 // To all addresses that begin with `address`; the last of them is left for the caller's clock.
 void RtlDatapath::write_word(const HighlightTable& table, int address) {
   for (std::size_t c = 0; c < table.roms.size(); ++c) {
-    const std::uint32_t word = table.roms[c].words()[static_cast<std::size_t>(address)];
+    const std::uint32_t word = table.roms[c].contents()[static_cast<std::size_t>(address)];
     ports_.rom_data[c] = static_cast<std::uint16_t>(word);
   }
   RtlPorts ports = ports_;  // no pixel is in flight, and no span may enter
@@ -95,7 +95,7 @@ void RtlDatapath::write_word(const HighlightTable& table, int address) {
 void RtlDatapath::load_table(const HighlightTable& table) {
   DatapathInputs inputs;
   inputs.table = &table;
-  const auto words = static_cast<int>(table.roms.front().words().size());
+  const auto words = static_cast<int>(table.roms.front().contents().size());
   for (inputs.rom_address = 0; inputs.rom_address < words; ++inputs.rom_address) clock(inputs);
 }
 

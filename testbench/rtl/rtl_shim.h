@@ -51,8 +51,8 @@ template <typename Top, typename Parameters>
 class Rtl {
   static constexpr int kChannels = Parameters::CHANNELS;
   static constexpr int kDiffuseWidth = phongpipe::diffuse_width(Parameters::DIFFUSE_FRACTION);
-  static constexpr int kSpecularWidth =
-      phongpipe::specular_width(Parameters::ROM_ADDRESS_BITS, Parameters::SPECULAR_FRACTION);
+  static constexpr int kSpecularWidth = phongpipe::specular_width(
+      Parameters::SPECULAR_GUARD, Parameters::ROM_ADDRESS_BITS, Parameters::SPECULAR_FRACTION);
   static constexpr int kRomDataBits = Parameters::ROM_DATA_BITS;
 
  public:

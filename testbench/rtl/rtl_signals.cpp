@@ -60,6 +60,17 @@ const RtlSignalView* RtlSignals::find(std::string_view scope, std::string_view n
   return found == all_.end() ? nullptr : &*found;
 }
 
+std::vector<const RtlSignalView*> rom_memories(const RtlSignals& signals) {
+  std::vector<const RtlSignalView*> memories;
+  for (const auto& [scope, name] :
+       {std::pair{"pixel_datapath.specular.rom", "table_words"},
+        {"pixel_datapath.specular.rom.octave.second_table", "table_increments"}}) {
+    const RtlSignalView* const memory = signals.find(scope, name);
+    if (memory != nullptr) memories.push_back(memory);
+  }
+  return memories;
+}
+
 std::optional<RtlRegister> RtlRegister::find(const RtlSignals& signals,
                                              const DatapathSignal& signal) {
   RtlRegister found;

@@ -46,6 +46,9 @@ class RtlSignals {
   std::vector<RtlSignalView> all_;
 };
 
+// The memories of exponent_rom, in the order in which words are written to them.
+std::vector<const RtlSignalView*> rom_memories(const RtlSignals& signals);
+
 // A register of the datapath in RTL.
 class RtlRegister {
  public:

@@ -5,8 +5,16 @@ namespace phongpipe {
 DatapathConfiguration superset_of(const DatapathConfiguration& configuration) {
   DatapathConfiguration wide = configuration;
   for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
-    // Words of the table end at the output's LSB from above and cannot be shifted.
-    if (setting.rtl_parameter.empty() || setting.rtl_parameter == "ROM_DATA_BITS") continue;
+    if (setting.rtl_parameter.empty()) continue;
+    // Words of the table end at the output's LSB from above and cannot be shifted; in the octave
+    // layouts, addresses cannot.
+    if (setting.rtl_parameter == "ROM_DATA_BITS" || setting.rtl_parameter == "ROM_OCTAVES") {
+      continue;
+    }
+    if (setting.rtl_parameter == "ROM_ADDRESS_BITS" &&
+        configuration.rom_layout != RomLayout::plain) {
+      continue;
+    }
     setting.put(wide, setting.high);
   }
   return wide;

@@ -95,7 +95,9 @@ std::vector<SeriesCoefficients> coefficients_of(const FrameSetup& frame,
     }
   }
   if (is_present(setup.plan.specular)) {
-    add("specular", "address", setup_fraction_bits(f, f.specular_fraction_bits), real.specular,
+    Quadratic<double> with_offset = real.specular;
+    with_offset.t0 += setup.material->offset_in_addresses();
+    add("specular", "address", setup_fraction_bits(f, f.specular_fraction_bits), with_offset,
         setup.specular);
   }
   if (is_present(setup.plan.gate)) add("gate", "LSB", diffuse_bits, real.gate, setup.gate);

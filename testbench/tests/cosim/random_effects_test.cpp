@@ -95,7 +95,7 @@ class RandomScene {
     const auto part = [this](const char* key, double share) {
       return chance(share) ? color(key, 0.1, 0.9) : fmt::format("{} = 0\n", key);
     };
-    const double shininess[] = {0.3, 1, 20, 164, 1000};
+    const double shininess[] = {0.5, 1, 20, 164, 1000};
     return fmt::format("[material.m{}]\n", i) + part("ambient", 0.7) + part("diffuse", 0.8) +
            part("specular", 0.7) + fmt::format("shininess = {}\n", shininess[whole(0, 4)]);
   }

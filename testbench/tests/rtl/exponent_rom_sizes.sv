@@ -1,28 +1,41 @@
-// exponent_rom at every legal size, with one fraction bit, on the same inputs.
+// exponent_rom at every legal size in every layout, with one fraction bit, on the same inputs. A block of
+// the octave layouts has an eighth of the addresses.
+`include "constants.svh"
+
 module exponent_rom_sizes (
-    input  logic        clk,
-    input  logic        address_enable,
-    input  logic        read_enable,
-    input  logic [15:0] v,
-    output logic [95:0] words,  // 12 bits each, the smallest table in the low bits
-    input  logic        write,
-    input  logic [12:0] write_address,
-    input  logic [11:0] write_word
+    input  logic         clk,
+    input  logic         address_enable,
+    input  logic         read_enable,
+    input  logic [ 15:0] v,
+    output logic [287:0] words,  // 12 bits each, increments added: by layout, the smallest table first
+    input  logic         write,
+    input  logic [ 12:0] write_address,
+    input  logic [ 11:0] write_word
 );
-  for (genvar bits = 6; bits <= 13; bits++) begin : size
-    exponent_rom #(
-        .VALUE_WIDTH(bits + 3),
-        .ADDRESS_BITS(bits),
-        .WORD_BITS(12)
-    ) rom (
-        .clk,
-        .address_enable,
-        .read_enable,
-        .v(v[bits+2:0]),
-        .word(words[(bits-6)*12+:12]),
-        .write,
-        .write_address(write_address[bits-1:0]),
-        .write_word
-    );
+  for (genvar layout = 0; layout <= `PHONGPIPE_LAYOUT_BIPARTITE; layout++) begin : in_layout
+    for (genvar bits = 6; bits <= 13; bits++) begin : size
+      localparam int BLOCK = bits - 3;
+      localparam int LOW = (BLOCK + 2) / 3;
+      localparam int WORDS = layout == `PHONGPIPE_LAYOUT_OCTAVE ? 4 << BLOCK : 8 << (BLOCK - LOW);
+      logic [11:0] word, increment;
+      exponent_rom #(
+          .VALUE_WIDTH(bits + 3),
+          .ADDRESS_BITS(bits),
+          .WORD_BITS(12),
+          .LAYOUT(layout),
+          .OCTAVES(3)
+      ) rom (
+          .clk,
+          .address_enable,
+          .read_enable,
+          .v(v[bits+2:0]),
+          .word,
+          .increment,
+          .write(write && (layout == `PHONGPIPE_LAYOUT_PLAIN || 32'(write_address) < WORDS)),
+          .write_address(write_address[bits-1:0]),
+          .write_word
+      );
+      assign words[(8*layout+bits-6)*12+:12] = word + increment;
+    end
   end
 endmodule

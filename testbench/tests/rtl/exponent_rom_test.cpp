@@ -1,4 +1,4 @@
-// RTL exponent_rom ≡ model, exhaustively: every value of every legal size.
+// RTL exponent_rom ≡ model, exhaustively: every value of every legal size in every layout.
 #include "model/fixed/exponent_rom.h"
 
 #include "model/fixed/fixed_point.h"
@@ -36,21 +36,26 @@ class ExponentRomRtl : public ::testing::Test {
     rtl_.clk = 1;
     rtl_.eval();
   }
-  std::uint32_t word(int bits) const {
-    const int first = (bits - kMinRomAddressBits) * kWordBits;
+  std::uint32_t word(int bits, RomLayout layout = RomLayout::plain) const {
+    const int first = (8 * static_cast<int>(layout) + bits - kMinRomAddressBits) * kWordBits;
     std::uint64_t pair = rtl_.words[first / 32];
-    if (first / 32 < 2) pair |= std::uint64_t{rtl_.words[first / 32 + 1]} << 32;
+    if (first / 32 < 8) pair |= std::uint64_t{rtl_.words[first / 32 + 1]} << 32;
     return static_cast<std::uint32_t>(pair >> (first % 32)) & 0xfff;
   }
   // What the model's address finds. A small table was overwritten by each larger address that ends
   // in the same bits.
-  static std::uint32_t expected(int bits, std::int64_t v) {
+  static std::uint32_t expected(int bits, RomLayout layout, std::int64_t v) {
     FrameConfiguration configuration;
     configuration.rom_address_bits = bits;
+    configuration.rom_octaves = 3;
+    configuration.rom_layout = layout;
     configuration.specular_fraction_bits = 1;
     const auto address =
         static_cast<std::uint32_t>(ExponentRom::address(configuration, wrap_to(v, bits + 3)));
-    return word_at((8191U >> bits << bits) | address);
+    if (layout == RomLayout::plain) return word_at((8191U >> bits << bits) | address);
+    const RomPlaces places = ExponentRom::places(configuration, static_cast<int>(address));
+    const auto at = [](std::size_t place) { return word_at(static_cast<std::uint32_t>(place)); };
+    return (at(places.base) + (places.increment ? at(*places.increment) : 0)) & 0xfff;
   }
 
   Vexponent_rom_sizes rtl_;
@@ -63,8 +68,11 @@ TEST_F(ExponentRomRtl, EveryValueOfEverySizeTwoClocksLater) {
     clock();
     if (v > 0) {
       for (int bits = kMinRomAddressBits; bits <= kMaxRomAddressBits; ++bits) {
-        ASSERT_EQ(word(bits), expected(bits, in_flight))
-            << "2^" << bits << " words, v " << in_flight;
+        for (const RomLayout layout : {RomLayout::plain, RomLayout::octave, RomLayout::bipartite}) {
+          ASSERT_EQ(word(bits, layout), expected(bits, layout, in_flight))
+              << "2^" << bits << " addresses, layout " << static_cast<int>(layout) << ", v "
+              << in_flight;
+        }
       }
     }
     in_flight = v;

@@ -41,6 +41,14 @@ DatapathConfiguration of_blocks(DatapathConfiguration c, bool diffuse, bool spec
 }
 
 // The presets, the corners of every parameter, and every combination of blocks.
+DatapathConfiguration laid_out(DatapathConfiguration c, RomLayout layout, int octaves,
+                               int guard_bits) {
+  c.rom_layout = layout;
+  c.rom_octaves = octaves;
+  c.specular_guard_bits = guard_bits;
+  return c;
+}
+
 std::vector<DatapathConfiguration> configurations() {
   return {configured(1, 16, 12, 10, 8, GateSource::diffuse),
           configured(3, 16, 12, 10, 8, GateSource::diffuse),
@@ -58,14 +66,20 @@ std::vector<DatapathConfiguration> configurations() {
           of_blocks(configured(1, 16, 12, 10, 8, GateSource::diffuse), false, false, true),
           of_blocks(configured(3, 16, 12, 10, 8, GateSource::diffuse), true, true, true),
           of_blocks(configured(1, 30, 25, 13, 12, GateSource::series), true, true, true),
-          of_blocks(configured(1, 4, 1, 6, 12, GateSource::off), true, true, true)};
+          of_blocks(configured(1, 4, 1, 6, 12, GateSource::off), true, true, true),
+          laid_out(configured(3, 16, 9, 13, 12, GateSource::diffuse), RomLayout::bipartite, 4, 4),
+          laid_out(configured(1, 16, 12, 10, 8, GateSource::series), RomLayout::octave, 2, 8),
+          laid_out(configured(1, 30, 25, 13, 12, GateSource::off), RomLayout::bipartite, 1, 12),
+          laid_out(configured(3, 4, 1, 6, 4, GateSource::diffuse), RomLayout::bipartite, 4, 4)};
 }
 
 std::string name_of(const DatapathConfiguration& c) {
-  return fmt::format("c{}_d{}_s{}_a{}_w{}_g{}{}{}{}", c.channels, c.diffuse_fraction_bits,
+  constexpr const char* kLayouts[] = {"", "_octave", "_bipartite"};
+  return fmt::format("c{}_d{}_s{}_a{}_w{}_g{}{}{}{}{}", c.channels, c.diffuse_fraction_bits,
                      c.specular_fraction_bits, c.rom_address_bits, c.rom_data_bits,
                      static_cast<int>(c.gate), c.diffuse ? "" : "_no_diffuse",
-                     c.specular ? "" : "_no_specular", c.depth_cue ? "_depth_cue" : "");
+                     c.specular ? "" : "_no_specular", c.depth_cue ? "_depth_cue" : "",
+                     kLayouts[static_cast<int>(c.rom_layout)]);
 }
 
 class SpanSource {

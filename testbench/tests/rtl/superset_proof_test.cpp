@@ -60,7 +60,7 @@ std::vector<std::pair<std::string, std::string>> correspondence(const Widths& wi
     shifted(fmt::format("channel[0].diffuse.diffuse_series.{}", name),
             diffuse_width(widths.diffuse_fraction));
     shifted(fmt::format("specular.specular_series.{}", name),
-            specular_width(6, widths.specular_fraction));
+            specular_width(kGuardBits, 6, widths.specular_fraction));
   }
   shifted("fd_level", diffuse_width(widths.diffuse_fraction));
   pairs.emplace_back("\\narrow.specular.rom.address", "\\wide.specular.rom.address[6:1]");

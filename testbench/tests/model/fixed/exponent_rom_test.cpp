@@ -126,7 +126,7 @@ TEST(ExponentRom, LargestErrorIsWhatADenseSamplingFinds) {
         const int words = c.rom_words();
         double sampled = 0;
         for (int i = 0; i < words; ++i) {
-          const double entry = std::pow(ExponentRom::entry_x(c, i), n);
+          const double entry = std::pow(ExponentRom::entry_x(c, i, n), n);
           for (int k = 0; k <= 16; ++k) {  // up to a whisker below the next interval
             const double x = (i + std::min(k / 16.0, 1 - 1e-9)) / words;
             sampled = std::max(sampled, std::fabs(std::pow(x, n) - entry));
@@ -137,6 +137,114 @@ TEST(ExponentRom, LargestErrorIsWhatADenseSamplingFinds) {
         EXPECT_LE(sampled, bound) << which;
         EXPECT_GE(sampled, bound * (1 - 1e-6)) << which;
       }
+    }
+  }
+}
+
+FrameConfiguration laid_out(RomLayout layout, int address_bits, int octaves, int data_bits = 12) {
+  FrameConfiguration configuration = table(address_bits, data_bits);
+  configuration.rom_layout = layout;
+  configuration.rom_octaves = octaves;
+  return configuration;
+}
+
+// Largest error in LSB of the words that an x reads, over x in [0, 1]: at both ends of what each
+// address stands for.
+double error_of_words(const FrameConfiguration& c, double n) {
+  const ExponentRom rom(c, 1, n);
+  const double reach = highlight_reach(c, n);
+  double largest = 0;
+  for (int address = 0; address < c.rom_addresses(); ++address) {
+    const double word =
+        std::ldexp(rom.words()[static_cast<std::size_t>(address)], kOutputBits - c.rom_data_bits);
+    for (const int end : {0, 1}) {
+      const double u =
+          address + end == 0 ? 0 : (address + end) / static_cast<double>(c.rom_addresses());
+      const double x = u == 0 ? 0 : std::max(0.0, 1 - reach * (1 - u));
+      largest = std::max(largest, std::fabs(word - kOutputMax * std::pow(x, n)));
+    }
+  }
+  return largest;
+}
+
+constexpr double kShininesses[] = {1, 1.5, 2, 5, 20, 50, 164, 500, 1000, 3000, 10'000};
+
+TEST(OctaveRom, HoldsEveryShininessWithinAFifthOfAnLsb) {
+  const FrameConfiguration c = laid_out(RomLayout::bipartite, 13, 4);
+  EXPECT_EQ(c.rom_words(), 640);
+  double largest = 0;
+  for (const double n : kShininesses) {
+    EXPECT_LT(error_of_words(c, n), 0.2) << n;
+    largest = std::max(largest, error_of_words(c, n));
+  }
+  EXPECT_GT(largest, 0.15) << "or the bound says little";
+}
+
+// The paper's table of 8k words errs by 2.56 LSB at its own shininess.
+TEST(OctaveRom, ASixtyFourthOfThePapersWordsIsAsGood) {
+  const double paper = error_of_words(table(13, 12), 164);
+  EXPECT_NEAR(paper, 2.55, 0.05);
+  const FrameConfiguration small = laid_out(RomLayout::bipartite, 9, 3);
+  EXPECT_EQ(small.rom_words(), 8192 / 64);
+  for (const double n : kShininesses) EXPECT_LT(error_of_words(small, n), paper) << n;
+}
+
+TEST(OctaveRom, OneTableIsAsGoodAsStated) {
+  const FrameConfiguration c = laid_out(RomLayout::octave, 10, 4);
+  EXPECT_EQ(c.rom_words(), 320);
+  for (const double n : kShininesses) EXPECT_LT(error_of_words(c, n), 1.1) << n;
+}
+
+TEST(OctaveRom, WordsFallFromFullScaleToZeroAndNeverWrap) {
+  for (const RomLayout layout : {RomLayout::octave, RomLayout::bipartite}) {
+    for (int address_bits = kMinRomAddressBits; address_bits <= kMaxRomAddressBits;
+         ++address_bits) {
+      for (int octaves = 1; octaves <= 4; ++octaves) {
+        for (const int data_bits : {kMinRomDataBits, 8, kMaxRomDataBits}) {
+          const FrameConfiguration c = laid_out(layout, address_bits, octaves, data_bits);
+          for (const double specular : {0.3, 1.0, 2.5}) {
+            for (const double n : {0.5, 20.0, 10'000.0}) {
+              const ExponentRom rom(c, specular, n);
+              ASSERT_EQ(rom.contents().size(), static_cast<std::size_t>(c.rom_words()));
+              const int most = (1 << data_bits) - 1;
+              for (const std::int32_t word : rom.words()) ASSERT_TRUE(word >= 0 && word <= most);
+              for (const std::int32_t word : rom.contents()) ASSERT_TRUE(word >= 0 && word <= most);
+              ASSERT_EQ(rom.words().front(), 0);
+              ASSERT_EQ(rom.words().back(),
+                        *std::max_element(rom.words().begin(), rom.words().end()));
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(OctaveRom, WithoutExponentEveryWordIsFullScale) {
+  for (const RomLayout layout : {RomLayout::octave, RomLayout::bipartite}) {
+    const ExponentRom rom(laid_out(layout, 9, 3), 1, 0);
+    for (const std::int32_t word : rom.words()) ASSERT_EQ(word, 4080);
+  }
+}
+
+// The octave of an address by its definition.
+TEST(OctaveRom, AddressesShareWordsByTheirOctave) {
+  const FrameConfiguration c = laid_out(RomLayout::octave, 8, 3);  // blocks of 32
+  const auto place = [&](int from_brightest) {
+    return ExponentRom::places(c, 255 - from_brightest).base;
+  };
+  for (int i = 0; i < 64; ++i) EXPECT_EQ(place(i), static_cast<std::size_t>(i));
+  for (int i = 64; i < 128; ++i) EXPECT_EQ(place(i), static_cast<std::size_t>(64 + (i - 64) / 2));
+  for (int i = 128; i < 256; ++i) EXPECT_EQ(place(i), static_cast<std::size_t>(96 + (i - 128) / 4));
+}
+
+TEST(OctaveRom, LargestErrorIsThatOfUnroundedWords) {
+  for (const RomLayout layout : {RomLayout::octave, RomLayout::bipartite}) {
+    const FrameConfiguration c = laid_out(layout, 11, 3);
+    const double rounding = layout == RomLayout::octave ? 0.5 : 1;  // units of a word
+    for (const double n : kShininesses) {
+      const double error = kOutputMax * ExponentRom::largest_error(c, n);
+      EXPECT_NEAR(error, error_of_words(c, n), std::ldexp(rounding, -4) + 1e-9) << n;
     }
   }
 }
