@@ -4,7 +4,8 @@
 
 namespace phongpipe {
 
-DatapathBlocks::DatapathBlocks(const DatapathConfiguration& configuration) {
+DatapathBlocks::DatapathBlocks(const DatapathConfiguration& configuration)
+    : rom_adders_(static_cast<std::uint64_t>(configuration.rom_adders())) {
   const auto block = [](const std::string& name) {
     return std::make_unique<DatapathBlock>(name.c_str());
   };
@@ -30,6 +31,7 @@ void DatapathBlocks::shade(const Span& span) {
   if (span.step_specular) specular_->operations.additions += 2 * pixels;
   if (span.highlight) {
     exponent_rom_->operations.reads += pixels;
+    exponent_rom_->operations.additions += rom_adders_ * pixels;
     for (const Block& sum : color_sum_) sum->operations.additions += pixels;
   }
   if (cue_series_) cue_series_->operations.additions += pixels;

@@ -105,12 +105,13 @@ struct DatapathConfiguration : FixedPointFormats, EffectBlocks {
   int series() const {
     return (diffuse ? channels : 0) + (specular ? 1 : 0) + (has_gate_series() ? 1 : 0);
   }
-  // Additions per pixel: two per series, one per channel to add diffuse and specular, and another
-  // for the increments of a bipartite ROM. Depth cueing takes one for its linear series and two per
-  // channel to move it towards the cue colour.
+  // Additions per pixel, of increments in a bipartite ROM.
+  int rom_adders() const { return specular && rom_layout == RomLayout::bipartite ? channels : 0; }
+  // Additions per pixel: two per series, one per channel to add diffuse and specular, and those of
+  // the ROM. Depth cueing takes one for its linear series and two per channel to move it towards
+  // the cue colour.
   int adders() const {
-    const int per_highlight = rom_layout == RomLayout::bipartite ? 2 : 1;
-    return 2 * series() + (specular ? per_highlight * channels : 0) +
+    return 2 * series() + (specular ? channels : 0) + rom_adders() +
            (depth_cue ? 1 + 2 * channels : 0);
   }
   int multipliers() const { return depth_cue ? channels : 0; }

@@ -1,9 +1,11 @@
-// Bound of the rounding error of a series.
+// Bounds of the errors of rounding: of a series' coefficients, and of the words of the exponent
+// ROM.
 #pragma once
 
 #include <cmath>
+#include <optional>
 
-#include "model/fixed/setup_engine.h"
+#include "model/fixed/exponent_rom.h"
 
 namespace phongpipe {
 
@@ -19,6 +21,26 @@ inline double rounding_bound(const FixedPointFormats& formats, int fraction_bits
   if (formats.anchor == Anchor::triangle) return setup;
   const double n = length - 1;
   return setup + std::ldexp(1 + n + n * (n - 1) / 2, -fraction_bits - 1);
+}
+
+// The fewest fraction bits, from 0, with which rounding_bound() is at most `tolerance`, in the
+// series' units; none if more than `most` were needed.
+inline std::optional<int> fewest_fraction_bits(const FixedPointFormats& formats, double extent,
+                                               int length, double tolerance, int most) {
+  for (int bits = 0; bits <= most; ++bits) {
+    if (rounding_bound(formats, bits, extent, length) <= tolerance) return bits;
+  }
+  return {};
+}
+
+// Largest difference of a ROM's words from specular · x^n, in output LSB, over x in [0, 1], for a
+// specular colour of at most 1. A word is rounded by half its unit; in the bipartite layout its
+// increment is, too.
+inline double table_error_bound(const DatapathConfiguration& configuration, double specular,
+                                double shininess) {
+  const double unit = std::ldexp(1, kOutputBits - configuration.rom_data_bits);
+  const double rounding = configuration.rom_layout == RomLayout::bipartite ? unit : unit / 2;
+  return kOutputMax * specular * ExponentRom::largest_error(configuration, shininess) + rounding;
 }
 
 }  // namespace phongpipe

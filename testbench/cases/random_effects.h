@@ -98,6 +98,7 @@ inline RandomEffects random_effects(Random& random, bool grey = false) {
   c.gate = random.integer(0, 3) == 0 ? GateSource::off : GateSource::diffuse;
   c.anchor = random.integer(0, 1) == 0 ? Anchor::triangle : Anchor::span;
   c.series_fit = static_cast<SeriesFit>(random.integer(0, 3));
+  c.rom_layout = static_cast<RomLayout>(random.integer(0, 2));
   return result;
 }
 

@@ -258,6 +258,11 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   const ModelRun model = run_and_hash_model(frame.setup);
   result.set_up = model.frame.triangles;
   result.pixels = model.frame.pixels;
+  if (result.set_up.overflows > 0) {
+    for (const SeriesRanges& ranges : register_ranges(frame.setup)) {
+      if (!ranges.fits()) result.overflowing.push_back(ranges);
+    }
+  }
   if (result.pixels == 0) {
     throw InputError(scene->scene.source, 0,
                      "nothing of the scene covers a pixel; look at the camera and the objects");

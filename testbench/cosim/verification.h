@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "model/fixed/prepared_frame.h"
+#include "model/fixed/register_ranges.h"
 #include "testbench/accuracy/accuracy.h"
 #include "testbench/accuracy/error_chain.h"
 #include "testbench/cosim/effect_set.h"
@@ -78,7 +79,9 @@ struct VerificationResult {
   std::size_t pieces = 0;           // that the split triangles became
   TriangleCounts set_up;            // counts pieces in place of split triangles
   std::uint64_t pixels = 0;         // shaded
-  double rom_error = 0;             // largest of the power's tables, as a fraction of full scale
+  // If values do not fit their registers: what the registers of each series hold.
+  std::vector<SeriesRanges> overflowing;
+  double rom_error = 0;  // largest of the power's tables, as a fraction of full scale
   ImplementationResult systemc;
   std::optional<ImplementationResult> rtl;  // none with RtlToVerify::off
   EffectSet effects;

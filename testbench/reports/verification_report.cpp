@@ -176,6 +176,10 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
                                      "that their pixels may be wrong: is a light too close or "
                                      "bright, or [depth_cue] narrow?",
                                      r.set_up.overflows)));
+    for (const SeriesRanges& ranges : r.overflowing) {
+      page.line("", fmt::format("the {} series needs registers of {} bits and has {}", ranges.name,
+                                ranges.needed_width(), ranges.width));
+    }
   }
   report_worst_pixels(page, r);
   if (!r.passed() && !style.command.empty()) {
