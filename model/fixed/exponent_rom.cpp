@@ -23,72 +23,90 @@ class Power {
   double reach_, shininess_;
 };
 
-// The contents of a table, each word scaled, kept at or below `largest` and passed through `round`.
+// Computes the contents of a table: each word is scaled, kept at or below `largest`, and passed
+// through `round`.
 template <typename Round>
-std::vector<double> fill(const DatapathConfiguration& f, double shininess, double scale,
-                         double largest, Round round) {
-  const Power power(f, shininess);
-  std::vector<double> contents(static_cast<std::size_t>(f.rom_words()));
-  if (f.rom_layout == RomLayout::plain) {
-    for (int i = 0; i < f.rom_words(); ++i) {
-      const double x = ExponentRom::entry_x(f, i, shininess);
-      contents[static_cast<std::size_t>(i)] =
-          round(std::min(scale * std::pow(x, shininess), largest));
+class TableContents {
+ public:
+  TableContents(const DatapathConfiguration& configuration, double shininess, double scale,
+                double largest, Round round)
+      : f_(configuration),
+        power_(configuration, shininess),
+        scale_(scale),
+        largest_(largest),
+        round_(round),
+        contents_(static_cast<std::size_t>(configuration.rom_words())) {
+    if (f_.rom_layout == RomLayout::plain) {
+      for (int i = 0; i < f_.rom_words(); ++i) {
+        const double x = ExponentRom::entry_x(f_, i, shininess);
+        word(i) = round_(std::min(scale_ * std::pow(x, shininess), largest_));
+      }
+      return;
     }
-    return contents;
+    for (int block = 0; block <= f_.rom_octaves; ++block) {
+      if (f_.rom_layout == RomLayout::octave) {
+        fill_block(block);
+      } else {
+        for (int high = 0; high < highs(); ++high) fill_high(block, high);
+      }
+    }
+    // What lies beyond the reach reads the last word.
+    if (shininess > 0) word(f_.rom_bases() - 1) = 0;
   }
-  // Values `begin` to `end` of the bits below the leading one, in a block: the middle between the
-  // ends of what x^n takes on there.
-  const auto middle = [&](int block, int begin, int end) {
-    const int leading = block == 0 ? 0 : 1 << f.rom_block_bits();
+
+  std::vector<double> take() { return std::move(contents_); }
+
+ private:
+  double& word(int place) { return contents_[static_cast<std::size_t>(place)]; }
+  int low_values() const { return 1 << f_.rom_low_bits(); }  // and middle ones, if bipartite
+  int highs() const { return 1 << (f_.rom_block_bits() - 2 * f_.rom_low_bits()); }
+
+  // What the addresses with these bits below the leading one should read: the middle between the
+  // ends of the values of x^n.
+  double wanted(int block, int below) const {
+    const int leading = block == 0 ? 0 : 1 << f_.rom_block_bits();
     const double spacing = block == 0 ? 1 : std::ldexp(1, block - 1);
-    const double near = power((leading + begin) * spacing), far = power((leading + end) * spacing);
-    return std::min(scale * (near + far) / 2, largest);
-  };
-  const int blocks = f.rom_octaves + 1;
-  if (f.rom_layout == RomLayout::octave) {
-    const int size = 1 << f.rom_block_bits();
-    for (int i = 0; i < f.rom_words(); ++i) {
-      contents[static_cast<std::size_t>(i)] = round(middle(i / size, i % size, i % size + 1));
+    const double near = power_((leading + below) * spacing);
+    const double far = power_((leading + below + 1) * spacing);
+    return std::min(scale_ * (near + far) / 2, largest_);
+  }
+
+  void fill_block(int block) {
+    const int size = 1 << f_.rom_block_bits();
+    for (int i = 0; i < size; ++i) word(block * size + i) = round_(wanted(block, i));
+  }
+
+  // Bases and increments of one high value. Both are the middle of what the other leaves: the
+  // increments of the differences from the last low value, the faintest, which has none.
+  void fill_high(int block, int high) {
+    const int size = low_values(), first = (block * highs() + high) * size;
+    const auto at = [&](int middle, int low) {
+      return wanted(block, (high * size + middle) * size + low);
+    };
+    const auto middle_of = [size](auto value) {
+      double least = value(0), most = least;
+      for (int i = 1; i < size; ++i) {
+        least = std::min(least, value(i));
+        most = std::max(most, value(i));
+      }
+      return (least + most) / 2;
+    };
+    double* const increments = &word(f_.rom_bases() + first);
+    for (int low = 0; low < size; ++low) {
+      increments[low] = round_(middle_of([&](int m) { return at(m, low) - at(m, size - 1); }));
     }
-  } else {
-    const int low = f.rom_low_bits(), size = 1 << low;
-    const int highs = blocks << (f.rom_block_bits() - 2 * low);  // of all blocks
-    for (int h = 0; h < highs; ++h) {
-      const int block = h >> (f.rom_block_bits() - 2 * low);
-      const int begin = (h << 2 * low) & ((1 << f.rom_block_bits()) - 1);
-      const auto wanted = [&](int m, int l) {
-        const int below = begin + m * size + l;
-        return middle(block, below, below + 1);
-      };
-      double* const bases = &contents[static_cast<std::size_t>(h * size)];
-      double* const increments = bases + f.rom_bases();
-      // Both are the middle of what the other leaves: the brightest low value has the largest
-      // increment, the last has none.
-      for (int l = 0; l < size; ++l) {
-        double least = std::numeric_limits<double>::infinity(), most = 0;
-        for (int m = 0; m < size; ++m) {
-          const double rise = wanted(m, l) - wanted(m, size - 1);
-          least = std::min(least, rise);
-          most = std::max(most, rise);
-        }
-        increments[l] = round((least + most) / 2);
-      }
-      for (int m = 0; m < size; ++m) {
-        double least = std::numeric_limits<double>::infinity(), most = -least;
-        for (int l = 0; l < size; ++l) {
-          const double rest = wanted(m, l) - increments[l];
-          least = std::min(least, rest);
-          most = std::max(most, rest);
-        }
-        bases[m] = std::clamp(round((least + most) / 2), 0.0, largest - increments[0]);
-      }
+    for (int m = 0; m < size; ++m) {
+      const double base = middle_of([&](int low) { return at(m, low) - increments[low]; });
+      word(first + m) = std::clamp(round_(base), 0.0, largest_ - increments[0]);
     }
   }
-  // What lies beyond the reach reads the last word.
-  if (shininess > 0) contents[static_cast<std::size_t>(f.rom_bases() - 1)] = 0;
-  return contents;
-}
+
+  const DatapathConfiguration& f_;
+  Power power_;
+  double scale_, largest_;
+  Round round_;
+  std::vector<double> contents_;
+};
 
 template <typename Value>
 std::vector<Value> by_address(const DatapathConfiguration& configuration,
@@ -122,8 +140,9 @@ ExponentRom::ExponentRom(const DatapathConfiguration& configuration, double spec
                          double shininess) {
   const double full_scale = std::ldexp(kOutputMax, configuration.rom_data_bits - kOutputBits);
   const double largest = (1 << configuration.rom_data_bits) - 1;
-  const std::vector<double> contents = fill(configuration, shininess, full_scale * specular,
-                                            largest, [](double word) { return std::round(word); });
+  const auto round = [](double word) { return std::round(word); };
+  const std::vector<double> contents =
+      TableContents(configuration, shininess, full_scale * specular, largest, round).take();
   contents_.reserve(contents.size());
   for (const double word : contents) contents_.push_back(static_cast<std::int32_t>(word));
   words_ = by_address(configuration, contents_);
@@ -155,9 +174,10 @@ RomPlaces ExponentRom::places(const DatapathConfiguration& configuration, int ad
 
 std::vector<double> ExponentRom::powers(const DatapathConfiguration& configuration,
                                         double shininess) {
+  const auto as_it_is = [](double word) { return word; };
+  constexpr double kAny = std::numeric_limits<double>::infinity();
   return by_address(configuration,
-                    fill(configuration, shininess, 1, std::numeric_limits<double>::infinity(),
-                         [](double word) { return word; }));
+                    TableContents(configuration, shininess, 1, kAny, as_it_is).take());
 }
 
 double ExponentRom::largest_error(const DatapathConfiguration& configuration, double shininess) {
