@@ -6,7 +6,7 @@ namespace phongpipe {
 
 const Settings<FixedPointFormats>& FixedPointFormats::settings() {
   using F = FixedPointFormats;
-  // Fractions end where registers have 40 bits, whose exact starts of spans fit in 64.
+  // Fractions end where registers have kWidestSeries bits.
   static const Settings<F> all = {
       choice_setting("datapath", "channels", &F::channel_choice, {"auto", "1", "3"},
                      "grey or colour; auto: one channel where all of the scene is grey"),
@@ -59,6 +59,13 @@ const Settings<SetupPolicy>& SetupPolicy::settings() {
 
 void DatapathConfiguration::check() const {
   check_settings<FixedPointFormats>(settings(), *this);
+  if (specular && specular_width() > kWidestSeries) {
+    throw InputError(fmt::format(
+        "datapath.specular_fraction_bits = {}: at most {} here, for the narrowest highlight of the "
+        "scene takes {} bits above full scale",
+        specular_fraction_bits, specular_fraction_bits - (specular_width() - kWidestSeries),
+        specular_guard_bits));
+  }
   if (channels != 1 && channels != 3) {
     throw InputError(fmt::format("datapath.channels = {}: 1 (grey) or 3 (colour)", channels));
   }

@@ -19,6 +19,8 @@ namespace phongpipe {
 // the span as 1 + n + n(n−1)/2.
 enum class Anchor { triangle, span };
 constexpr int kSetupExtraBits = 20;
+// Bits of a register whose exact starts of spans fit in 64 bits.
+constexpr int kWidestSeries = 40;
 
 // The x that a ROM entry is computed for, out of the interval that shares its address. `nearest`:
 // the middle, which equals rounding the address to nearest. `truncate`: the lower end.

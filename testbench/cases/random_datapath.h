@@ -2,6 +2,7 @@
 // and any contents of their registers.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -39,6 +40,7 @@ inline DatapathConfiguration random_configuration(Random& random) {
   c.rom_octaves = random.integer(1, 4);
   c.specular_guard_bits = least_specular_guard_bits(c.rom_layout) *
                           (c.rom_layout == RomLayout::plain ? 1 : random.integer(1, 3));
+  c.specular_fraction_bits -= std::max(0, c.specular_width() - kWidestSeries);
   c.anchor = random.integer(0, 1) == 0 ? Anchor::triangle : Anchor::span;
   c.gate = static_cast<GateSource>(random.integer(0, 2));
   if (c.specular && !c.diffuse && c.gate == GateSource::diffuse) c.gate = GateSource::series;

@@ -1,5 +1,7 @@
 #include "testbench/rtl/superset.h"
 
+#include <algorithm>
+
 namespace phongpipe {
 
 DatapathConfiguration superset_of(const DatapathConfiguration& configuration) {
@@ -17,6 +19,7 @@ DatapathConfiguration superset_of(const DatapathConfiguration& configuration) {
     }
     setting.put(wide, setting.high);
   }
+  wide.specular_fraction_bits -= std::max(0, wide.specular_width() - kWidestSeries);
   return wide;
 }
 

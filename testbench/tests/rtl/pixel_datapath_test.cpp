@@ -69,7 +69,7 @@ std::vector<DatapathConfiguration> configurations() {
           of_blocks(configured(1, 4, 1, 6, 12, GateSource::off), true, true, true),
           laid_out(configured(3, 16, 9, 13, 12, GateSource::diffuse), RomLayout::bipartite, 4, 4),
           laid_out(configured(1, 16, 12, 10, 8, GateSource::series), RomLayout::octave, 2, 8),
-          laid_out(configured(1, 30, 25, 13, 12, GateSource::off), RomLayout::bipartite, 1, 12),
+          laid_out(configured(1, 30, 14, 13, 12, GateSource::off), RomLayout::bipartite, 1, 12),
           laid_out(configured(3, 4, 1, 6, 4, GateSource::diffuse), RomLayout::bipartite, 4, 4)};
 }
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <set>
 
 #include "model/scene/input_error.h"
@@ -49,18 +50,28 @@ struct Shaded {
   }
 };
 
+// A random run's frame, or null if its hardware is refused for the scene.
+std::unique_ptr<const Shaded> shade(const RunRequest& run) {
+  try {
+    return std::make_unique<const Shaded>(run);
+  } catch (const InputError&) {
+    return nullptr;
+  }
+}
+
 // Calls visit(shaded, pixel) for `count` random pixels, at most `of_each` of a random run.
 template <typename Visit>
 void for_each_random_pixel(std::size_t count, std::size_t of_each, Visit visit) {
   Random random(kSeed);
   for (std::uint64_t run = 0; count > 0; ++run) {
     SCOPED_TRACE(fmt::format("run {} of seed {}", run, kSeed));
-    const Shaded shaded(random_run(kSeed, run));
-    const std::vector<Pixel> covered = shaded.covered();
+    const auto shaded = shade(random_run(kSeed, run));
+    if (!shaded) continue;
+    const std::vector<Pixel> covered = shaded->covered();
     for (std::size_t i = 0; i < of_each && count > 0 && !covered.empty(); ++i, --count) {
       const Pixel& pixel = covered[random.below(covered.size())];
       SCOPED_TRACE(fmt::format("pixel {},{}", pixel.x, pixel.y));
-      visit(shaded, pixel);
+      visit(*shaded, pixel);
       if (testing::Test::HasFatalFailure()) return;
     }
   }

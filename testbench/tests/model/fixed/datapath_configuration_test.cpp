@@ -121,6 +121,26 @@ TEST(DatapathConfiguration, BlocksLeftOutCostNothing) {
   EXPECT_EQ(c.rom_bits(), 3 * 8 * 1024);
 }
 
+// The guard bits of narrow highlights leave fewer for the fraction.
+TEST(DatapathConfiguration, SeriesOfTheOctaveLayoutsEndAt40BitsToo) {
+  DatapathConfiguration c;
+  c.rom_layout = RomLayout::bipartite;
+  c.rom_address_bits = 13;
+  c.specular_guard_bits = 12;
+  c.specular_fraction_bits = 14;
+  EXPECT_EQ(c.specular_width(), kWidestSeries);
+  c.check();
+  c.specular_fraction_bits = 17;
+  try {
+    c.check();
+    FAIL() << "43 bits";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("specular_fraction_bits = 17: at most 14"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 // The paper's claim: 2 additions a pixel for diffuse light, 5 for full Phong.
 TEST(DatapathConfiguration, AddsFiveTimesAPixel) {
   DatapathConfiguration c;
