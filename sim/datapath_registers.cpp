@@ -80,8 +80,9 @@ void DatapathRegisters::advance(const Ready& ready) {
   if (ready.add) {
     follow(add_, read_);
     for (std::size_t c = 0; c < channels(); ++c) {
+      const std::int32_t mask = (1 << configuration_.rom_data_bits) - 1;
       const std::int32_t word =
-          read_.open ? aligned_word(configuration_, read_.word[c] + read_.increment[c])
+          read_.open ? aligned_word(configuration_, (read_.word[c] + read_.increment[c]) & mask)
                      : std::int32_t{0};
       add_.sum[c] = light_sum(configuration_, read_.clamped[c], word);
     }

@@ -6,7 +6,7 @@ namespace phongpipe {
 
 const Settings<FixedPointFormats>& FixedPointFormats::settings() {
   using F = FixedPointFormats;
-  // Fractions end where registers have kWidestSeries bits.
+  // Fractions end where the registers of the plain layout have kWidestSeries bits.
   static const Settings<F> all = {
       choice_setting("datapath", "channels", &F::channel_choice, {"auto", "1", "3"},
                      "grey or colour; auto: one channel where all of the scene is grey"),
@@ -23,13 +23,15 @@ const Settings<FixedPointFormats>& FixedPointFormats::settings() {
                      "of the exponent ROM; plain, it has 2^this words: 64 to 8192",
                      "ROM_ADDRESS_BITS"),
       number_setting("datapath", "rom_octaves", &F::rom_octaves, "octaves", 1, 4,
-                     "that octave and bipartite tell apart; as many halve the ROM as often, and "
-                     "make it coarser for fainter highlights",
+                     "that octave and bipartite tell apart; 1 to 4 leave 1, 3/4, 1/2, 5/16 of "
+                     "the words, coarser ones for fainter highlights",
                      "ROM_OCTAVES"),
       number_setting("datapath", "rom_data_bits", &F::rom_data_bits, "bits", 4, 12,
                      "of a word of the exponent ROM, a fraction of full scale", "ROM_DATA_BITS"),
-      choice_setting("datapath", "index_rounding", &F::index_rounding, {"nearest", "truncate"},
-                     "whether a ROM word stands for the middle or the lower end of its interval"),
+      choice_setting(
+          "datapath", "index_rounding", &F::index_rounding, {"nearest", "truncate"},
+          "whether a word of the plain layout stands for the middle or the lower end of its "
+          "interval; in the others, always for the middle"),
       choice_setting("datapath", "specular_gate", &F::gate_choice, {"off", "diffuse", "series"},
                      "what keeps highlights off unlit surfaces: nothing, or N·L; the scene decides "
                      "whether its diffuse series can tell or N·L needs a series of its own"),
@@ -59,7 +61,7 @@ const Settings<SetupPolicy>& SetupPolicy::settings() {
 
 void DatapathConfiguration::check() const {
   check_settings<FixedPointFormats>(settings(), *this);
-  if (specular && specular_width() > kWidestSeries) {
+  if (specular_width() > kWidestSeries) {
     throw InputError(fmt::format(
         "datapath.specular_fraction_bits = {}: at most {} here, for the narrowest highlight of the "
         "scene takes {} bits above full scale",

@@ -22,8 +22,8 @@ constexpr int kSetupExtraBits = 20;
 // Bits of a register whose exact starts of spans fit in 64 bits.
 constexpr int kWidestSeries = 40;
 
-// The x that a ROM entry is computed for, out of the interval that shares its address. `nearest`:
-// the middle, which equals rounding the address to nearest. `truncate`: the lower end.
+// The x that a word of the plain layout is computed for, out of the interval of its address.
+// `nearest`: the middle, which equals rounding the address to nearest. `truncate`: the lower end.
 enum class IndexRounding { nearest, truncate };
 
 // Where the word of an address is, see exponent_rom.h.

@@ -130,7 +130,9 @@ double highlight_reach(const FixedPointFormats& formats, double shininess) {
 
 double ExponentRom::entry_x(const DatapathConfiguration& configuration, int address,
                             double shininess) {
-  const double offset = configuration.index_rounding == IndexRounding::nearest ? 0.5 : 0.0;
+  const bool lower_end = configuration.index_rounding == IndexRounding::truncate &&
+                         configuration.rom_layout == RomLayout::plain;
+  const double offset = lower_end ? 0 : 0.5;
   const double reach = highlight_reach(configuration, shininess);
   // (address + offset) / addresses with the reach of the plain layout, to the last bit.
   return (1 - reach) + reach * ((address + offset) / configuration.rom_addresses());

@@ -3,7 +3,7 @@
 //
 // The series stands for x = 1 − reach (1 − v / 2^rom_address_bits). In the plain layout of the
 // paper the reach is 1, v is x itself, and each address has a word of its own. In the octave
-// layouts (NUMERICS 9) the reach is such that x^n falls to 1/2048, ⅛ LSB, where the last word
+// layouts the reach is such that x^n falls to 1/2048, ⅛ LSB, where the last word
 // begins, which is 0: so many words serve every shininess alike. What is beyond the reach reads
 // that word.
 //
@@ -50,7 +50,7 @@ class ExponentRom {
   static int address(const DatapathConfiguration& configuration, std::int64_t v);
   static RomPlaces places(const DatapathConfiguration& configuration, int address);
 
-  // The x in the middle of an address, or at its lower end (see IndexRounding).
+  // The x in the middle of an address, or at its lower end in the plain layout (see IndexRounding).
   static double entry_x(const DatapathConfiguration& configuration, int address, double shininess);
 
   // What each address reads, without the rounding of words and with `specular` 1.

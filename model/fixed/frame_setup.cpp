@@ -49,7 +49,7 @@ void require_shininess(const Scene& scene, const Geometry& geometry,
     throw InputError(
         scene.source, 0,
         fmt::format("material {}: shininess = {:g}: an octave table errs by {:.2g} of full scale "
-                    "there; 0, or from {:g} to {:g}",
+                    "there; use a shininess of 0 or from {:g} to {:g}, or rom_layout = plain",
                     material.name, n, ExponentRom::largest_error(configuration, n), kLeastShininess,
                     kMostShininess));
   }
@@ -162,7 +162,9 @@ LightInput<double> light_input(const Scene& scene, const Light& light, double la
   terms.spot_exponent = light.spot_exponent;
   terms.fold = material.shininess > 0 ? 1 / material.shininess : 0;
   terms.sharpness = std::max(0.0, material.shininess - 1);
-  const double reach = highlight_reach(configuration, material.shininess);
+  // Where there is no highlight, no shininess makes the series wider than cosines are.
+  const double reach =
+      has_highlight(material, light) ? highlight_reach(configuration, material.shininess) : 1;
   input.specular_scale = configuration.rom_addresses() / reach;
   input.gate_scale = kOutputMax;
   for (std::size_t c = 0; c < 3; ++c) {

@@ -37,7 +37,8 @@ struct MaterialSetup {
   std::int64_t specular_offset = 0;
   int specular_offset_bits = 0;
   std::uint32_t table = 0;  // index into FrameSetup::tables
-  // The first address of the table at which some word is not 0; the number of words if all are 0.
+  // The first address of the table at which some word is not 0; the number of addresses if all are
+  // 0.
   int first_visible_address = 0;
 
   double offset_in_addresses() const {

@@ -22,7 +22,9 @@ int extent_of(const ScreenTriangle& triangle, const Image& image) {
 
 bool diffuse_loses_sign(const FixedPointFormats& formats, const Scene& scene,
                         const Geometry& geometry, std::uint32_t material, const Light& light) {
-  const double scale = kOutputMax * (geometry.materials[material].diffuse * light.color).maxCoeff();
+  // Any channel opens the gate: the darkest that is lit decides.
+  const Color scales = kOutputMax * geometry.materials[material].diffuse * light.color;
+  const double scale = (scales > 0).select(scales, kOutputMax).minCoeff();
   // The largest |N·L| whose sign may be wrong.
   const auto doubtful = [&](int extent) {
     return rounding_bound(formats, formats.diffuse_fraction_bits, extent, extent) / scale;

@@ -1,4 +1,4 @@
-// The values that the series' registers of a frame take on, known before a pixel is stepped: what
+// The values that the series' registers of a frame take on, known before a pixel is stepped: which
 // width they need, and whether the configuration's is enough.
 #pragma once
 
@@ -27,7 +27,8 @@ struct SeriesRanges {
   int width = 0;          // of its registers, in bits
   RegisterRange v, d1, d2;
 
-  int needed_width() const { return std::max({v.width(), d1.width(), d2.width()}); }
+  // Differences may wrap: as long as v fits, it is right.
+  int needed_width() const { return v.width(); }
   bool fits() const { return needed_width() <= width; }
 };
 

@@ -68,18 +68,19 @@ void Lockstep::compare_table() {
   if (!table_written_) return;
   table_written_ = false;
   const int bits = configuration_.rom_data_bits;
-  int begin = 0;  // of the memory's words in the table
+  std::size_t place = 0;  // of the word in the table
   for (const RtlSignalView* const words : rom_memories(signals_)) {
-    if (begin + words->elements > configuration_.rom_words()) return;
-    for (int i = 0; i < words->elements; ++i) {
+    if (place + static_cast<std::size_t>(words->elements) >
+        static_cast<std::size_t>(configuration_.rom_words())) {
+      return;
+    }
+    for (int i = 0; i < words->elements; ++i, ++place) {
       for (int c = 0; c < configuration_.channels; ++c) {
-        differs(delivered_,
-                {words->scope, fmt::format("{}[{}]", words->name, i), bits, cycle_,
-                 model_.table(static_cast<std::size_t>(c))[static_cast<std::size_t>(begin + i)],
-                 static_cast<std::int64_t>(words->bits(c * bits, bits, i))});
+        differs(delivered_, {words->scope, fmt::format("{}[{}]", words->name, i), bits, cycle_,
+                             model_.table(static_cast<std::size_t>(c))[place],
+                             static_cast<std::int64_t>(words->bits(c * bits, bits, i))});
       }
     }
-    begin += words->elements;
   }
 }
 

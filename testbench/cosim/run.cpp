@@ -118,6 +118,9 @@ Failure failure_of(const char* name, const ImplementationResult& found) {
 }
 
 Failure failure_of(const VerificationResult& r) {
+  if (const ImplementationResult* const found = r.diverging()) {
+    return failure_of(found == &r.systemc ? "SystemC" : "RTL", *found);
+  }
   if (!r.systemc.agrees()) return failure_of("SystemC", r.systemc);
   if (r.rtl && !r.rtl->agrees()) return failure_of("RTL", *r.rtl);
   if (!r.same_cycles()) {
@@ -134,10 +137,7 @@ Failure failure_of(const VerificationResult& r) {
                         r.set_up.overflows)};
   }
   if (!r.within_error()) {
-    return {fmt::format("error: {}", r.worst_pixels.front().largest_part),
-            fmt::format("{} pixels are off by more than {} LSB, at most {:.2f}",
-                        r.accuracy.pixels_over_limit, *r.options.max_error_lsb,
-                        r.accuracy.total.largest_lsb)};
+    return {fmt::format("error: {}", r.worst_pixels.front().largest_part), r.over_limit_text()};
   }
   return {"budget", fmt::format("{:.2f} ns a pixel, over the budget of {:.10g}",
                                 r.frame_ns_per_pixel(), r.options.budget_ns)};

@@ -5,6 +5,7 @@
 #include <ctime>
 
 #include "model/scene/input_error.h"
+#include "testbench/cosim/metrics.h"
 #include "testbench/cosim/stream_checker.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/process.h"
@@ -202,6 +203,15 @@ const ImplementationResult* VerificationResult::diverging() const {
   if (rtl && rtl->signal_divergence) return &*rtl;
   if (systemc.first_divergence) return &systemc;
   return rtl && rtl->first_divergence ? &*rtl : nullptr;
+}
+
+std::string VerificationResult::over_limit_text() const {
+  const std::uint64_t pixels = accuracy.pixels_over_limit;
+  if (pixels == 0) return {};
+  return fmt::format("{} pixel{} off by more than {:g} LSB, at most {:.2f}",
+                     metric_text(static_cast<std::int64_t>(pixels)), pixels == 1 ? "" : "s",
+                     options.max_error_lsb.value_or(AccuracyOptions().limit_lsb),
+                     accuracy.total.largest_lsb);
 }
 
 bool VerificationResult::same_cycles() const {

@@ -102,6 +102,8 @@ struct VerificationResult {
   bool same_cycles() const;  // of every pixel, in SystemC and RTL; true without RTL
   bool agrees() const { return systemc.agrees() && (!rtl || rtl->agrees()) && same_cycles(); }
   bool within_budget() const { return frame_ns_per_pixel() <= options.budget_ns; }
+  // "12 pixels off by more than 2 LSB, at most 3.21", by the limit or else by 2; empty without any.
+  std::string over_limit_text() const;
   bool within_error() const {
     return !options.max_error_lsb || accuracy.total.largest_lsb <= *options.max_error_lsb;
   }

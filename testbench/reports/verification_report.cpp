@@ -57,18 +57,8 @@ std::string color_text(std::uint32_t color, int channels) {
   return fmt::format("0x{} ({} LSB)", hex, lsb);
 }
 
-// "12 pixels off by more than 2 LSB, at most 3.21"; empty without any.
-std::string over_limit_text(const VerificationResult& r) {
-  const std::uint64_t pixels = r.accuracy.pixels_over_limit;
-  if (pixels == 0) return {};
-  return fmt::format("{} pixel{} off by more than {:g} LSB, at most {:.2f}", grouped(pixels),
-                     pixels == 1 ? "" : "s",
-                     r.options.max_error_lsb.value_or(AccuracyOptions().limit_lsb),
-                     r.accuracy.total.largest_lsb);
-}
-
 std::string heading(const Page& page, const VerificationResult& r) {
-  const std::string errors = r.within_error() ? over_limit_text(r) : "";  // else told as a failure
+  const std::string errors = r.within_error() ? r.over_limit_text() : "";  // else told as a failure
   return fmt::format("{} {}  {}×{}, {} pixels, hardware {} {}{}", page.verdict(r.passed()), r.scene,
                      r.width, r.height, grouped(r.pixels), r.hardware.name,
                      configuration_hash(r.hardware).substr(0, 8),
@@ -135,7 +125,7 @@ void report_signal(Page& page, const VerificationResult& r) {
 // The pixels with the largest errors, if some error is more than --max-error allows.
 void report_worst_pixels(Page& page, const VerificationResult& r) {
   if (r.within_error()) return;
-  page.line("error", page.toned(Tone::bad, over_limit_text(r) + "; the worst:"));
+  page.line("error", page.toned(Tone::bad, r.over_limit_text() + "; the worst:"));
   for (const WorstPixel& worst : r.worst_pixels) {
     if (worst.error_lsb <= *r.options.max_error_lsb) break;
     const auto text = [&](const Color& color) {
@@ -209,9 +199,11 @@ void report_warnings(Page& page, const VerificationResult& r) {
   if (r.rom_error > 0.01) {
     page.line("warning",
               page.toned(Tone::warning,
-                         fmt::format("the ROM errs by up to {:.2f} % of a full highlight; raise "
-                                     "rom_address_bits, or bring the shininess nearer to 1",
-                                     100 * r.rom_error)));
+                         fmt::format("the ROM errs by up to {:.2f} % of a full highlight; {}",
+                                     100 * r.rom_error,
+                                     r.configuration.rom_layout == RomLayout::plain
+                                         ? "raise rom_address_bits, or set rom_layout = bipartite"
+                                         : "raise rom_address_bits, or lower rom_octaves")));
   }
 }
 
@@ -316,9 +308,11 @@ ordered_json configuration_json(const VerificationResult& r) {
 
 std::string report_line(const VerificationResult& r, const ReportStyle& style) {
   Page page(style.color);
-  page.plain(fmt::format("{}, {:.2f} of {:.10g} ns a pixel, at most {:.2f} LSB", heading(page, r),
-                         r.frame_ns_per_pixel(), r.options.budget_ns,
-                         r.accuracy.total.largest_lsb));
+  const bool error_is_told = r.accuracy.pixels_over_limit > 0 && r.within_error();
+  page.plain(fmt::format(
+      "{}, {:.2f} of {:.10g} ns a pixel{}", heading(page, r), r.frame_ns_per_pixel(),
+      r.options.budget_ns,
+      error_is_told ? "" : fmt::format(", at most {:.2f} LSB", r.accuracy.total.largest_lsb)));
   report_warnings(page, r);
   report_failures(page, r, style);
   if (style.verbose) report_details(page, r);

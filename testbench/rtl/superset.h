@@ -1,7 +1,7 @@
 // One RTL in place of many: the datapath of a configuration runs, bit by bit and clock by clock, in
-// RTL of the same blocks with wider registers and a larger table. Series are shifted left until
-// their top bits meet, for the datapath uses only top bits; each word of the table is written to
-// all addresses that share its leading bits.
+// RTL of the same blocks with wider registers and a larger table; in the octave layouts with the
+// same table. Series are shifted left until their top bits meet, for the datapath uses only top
+// bits; each word of the table is written to all addresses that share its leading bits.
 #pragma once
 
 #include "model/fixed/datapath_configuration.h"

@@ -144,12 +144,12 @@ Capsule read_capsule(const std::filesystem::path& file, bool anyway) {
   const int arithmetic = root.integer("arithmetic", 0, 1'000'000);
   capsule.name = root.text("name");
   capsule.found = root.text("found");
-  capsule.same_program = parse_hash(root.text("program_hash")) == program_hash();
+  capsule.same_program = parse_hash(root.text("program_hash", "")) == program_hash();
   capsule.rtl_hash = parse_hash(root.text("rtl_hash"));
   root.table("divergence");
   const TomlTable options = root.table("options");
   for (const RunOption& option : run_options()) {
-    option.put(capsule.options, options.text(option.name));
+    option.put(capsule.options, options.text(option.name, option.get(capsule.options)));
   }
   options.finish();
   capsule.hardware = parse_hardware(root.text("hardware"), file);

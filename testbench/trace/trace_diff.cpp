@@ -26,6 +26,7 @@ const std::map<std::string, DatapathStage>& stages_of_signals() {
     everything.channels = 3;
     everything.diffuse = everything.specular = everything.depth_cue = true;
     everything.gate = GateSource::series;
+    everything.rom_layout = RomLayout::bipartite;
     for (const DatapathSignal& signal : datapath_signals(everything)) {
       stages.emplace(signal.full_name(), signal.stage);
       if (!signal.packed.empty()) {

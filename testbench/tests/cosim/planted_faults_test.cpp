@@ -44,8 +44,9 @@ class FaultyRtl : public RtlDatapath {
 
 class PlantedFaults : public testing::Test {
  protected:
-  PlantedFaults(const char* scene, const std::vector<std::string>& settings)
-      : hardware_(load_hardware("paper-1k", {})),
+  PlantedFaults(const char* scene, const std::vector<std::string>& settings,
+                const char* preset = "paper-1k")
+      : hardware_(load_hardware(preset, {})),
         frame_(load_named_scene(scene, settings), hardware_.formats, hardware_.setup),
         library_(frame_.setup.configuration, build()) {}
 
@@ -112,11 +113,16 @@ class PlantedFaults : public testing::Test {
         }
       }
     }
-    for (const int address : {0, 700, 1000}) {
-      for (const int bit : {0, 7}) {
-        for (const bool value : {false, true}) {
-          plant({"pixel_datapath.specular.rom", "table_words", address, bit, value}, "table_words",
-                DatapathStage::read);
+    const RtlDatapath rtl(library_, frame_.setup.cue_color);
+    const RtlSignals inside(rtl);
+    for (const RtlSignalView* const memory : rom_memories(inside)) {
+      const int last = memory->elements - 1;
+      for (const int address : {0, 7 * last / 10, last - last / 43}) {
+        for (const int bit : {0, 7}) {
+          for (const bool value : {false, true}) {
+            plant({memory->scope, memory->name, address, bit, value}, memory->name,
+                  DatapathStage::read);
+          }
         }
       }
     }
@@ -129,7 +135,7 @@ class PlantedFaults : public testing::Test {
   }
 
   DatapathStage stage_of(const SignalDivergence& found) const {
-    if (found.signal.rfind("table_words", 0) == 0) return DatapathStage::read;
+    if (found.signal.rfind("table_", 0) == 0) return DatapathStage::read;
     for (const DatapathSignal& signal : signals_) {
       if (signal.block() == found.block && signal.name == found.signal) return signal.stage;
     }
@@ -151,6 +157,16 @@ class InGrey : public PlantedFaults {
   InGrey() : PlantedFaults("sphere", kSmall) {}
 };
 TEST_F(InGrey, AreNamedWhereTheyWerePlanted) {
+  plant_everywhere();
+}
+
+// With words in two tables.
+class InDefault : public PlantedFaults {
+ protected:
+  InDefault() : PlantedFaults("sphere", kSmall, "default") {}
+};
+TEST_F(InDefault, AreNamedWhereTheyWerePlanted) {
+  ASSERT_EQ(frame_.setup.configuration.rom_layout, RomLayout::bipartite);
   plant_everywhere();
 }
 

@@ -1,5 +1,5 @@
-// exponent_rom at every legal size in every layout, with one fraction bit, on the same inputs. A block of
-// the octave layouts has an eighth of the addresses.
+// exponent_rom at every legal size in every layout, with one fraction bit, on the same inputs. The octave
+// layouts have 1 to 4 octaves, in turn.
 `include "constants.svh"
 
 module exponent_rom_sizes (
@@ -14,16 +14,18 @@ module exponent_rom_sizes (
 );
   for (genvar layout = 0; layout <= `PHONGPIPE_LAYOUT_BIPARTITE; layout++) begin : in_layout
     for (genvar bits = 6; bits <= 13; bits++) begin : size
-      localparam int BLOCK = bits - 3;
+      localparam int OCTAVES = 1 + bits % 4;
+      localparam int BLOCK = bits - OCTAVES;
       localparam int LOW = (BLOCK + 2) / 3;
-      localparam int WORDS = layout == `PHONGPIPE_LAYOUT_OCTAVE ? 4 << BLOCK : 8 << (BLOCK - LOW);
+      localparam int WORDS = layout == `PHONGPIPE_LAYOUT_OCTAVE ? (OCTAVES + 1) << BLOCK
+                                                                : 2 * (OCTAVES + 1) << (BLOCK - LOW);
       logic [11:0] word, increment;
       exponent_rom #(
           .VALUE_WIDTH(bits + 3),
           .ADDRESS_BITS(bits),
           .WORD_BITS(12),
           .LAYOUT(layout),
-          .OCTAVES(3)
+          .OCTAVES(OCTAVES)
       ) rom (
           .clk,
           .address_enable,

@@ -40,7 +40,6 @@ DatapathConfiguration of_blocks(DatapathConfiguration c, bool diffuse, bool spec
   return c;
 }
 
-// The presets, the corners of every parameter, and every combination of blocks.
 DatapathConfiguration laid_out(DatapathConfiguration c, RomLayout layout, int octaves,
                                int guard_bits) {
   c.rom_layout = layout;
@@ -49,6 +48,7 @@ DatapathConfiguration laid_out(DatapathConfiguration c, RomLayout layout, int oc
   return c;
 }
 
+// The presets, the corners of every parameter, and every combination of blocks.
 std::vector<DatapathConfiguration> configurations() {
   return {configured(1, 16, 12, 10, 8, GateSource::diffuse),
           configured(3, 16, 12, 10, 8, GateSource::diffuse),

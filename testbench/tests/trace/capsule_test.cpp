@@ -9,6 +9,7 @@
 #include "model/files/scene_writer.h"
 #include "model/files/text_file.h"
 #include "model/fixed/prepared_frame.h"
+#include "model/scene/input_error.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/system/output_file.h"
 
@@ -94,6 +95,7 @@ class Capsules : public testing::Test {
     result_.rtl.emplace();
     result_.rtl->signal_divergence =
         SignalDivergence{"pixel_datapath.specular.rom", "address", 10, 81'204, 0x1f3, 0x1f2};
+    result_.rtl->first_divergence = Divergence{9, 77, 6, 81'206, {8, 9, 10}, {8, 9, 11}, false};
     write_text(file_, capsule_text(load_named_scene("sphere", {}), result_));
   }
   ~Capsules() override { fs::remove(file_); }
@@ -111,7 +113,23 @@ TEST_F(Capsules, KeepEverything) {
   EXPECT_EQ(capsule.options.stall_percent, 20);
   EXPECT_EQ(capsule.options.seed, 9U);
   EXPECT_TRUE(capsule.same_program);
+  EXPECT_NE(read_whole_file(file_).find("span = 77"), std::string::npos);
   expect_same_geometry(load_named_scene("sphere", {}), capsule.scene);
+}
+
+// As a capsule that another build of the program wrote, before it had all of today's options.
+TEST_F(Capsules, OfOtherProgramsAreReadAnyway) {
+  std::string text = read_whole_file(file_);
+  for (const char* key : {"program_hash", "max-error"}) {
+    const std::size_t at = text.find(key), end = text.find('\n', at);
+    ASSERT_NE(end, std::string::npos) << key;
+    text.erase(at, end + 1 - at);
+  }
+  write_text(file_, text);
+  EXPECT_THROW(read_capsule(file_, false), InputError);
+  const Capsule capsule = read_capsule(file_, true);
+  EXPECT_FALSE(capsule.same_program);
+  EXPECT_FALSE(capsule.options.max_error_lsb.has_value());
 }
 
 TEST_F(Capsules, ChangedByHandAreRefused) {

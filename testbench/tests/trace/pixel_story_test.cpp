@@ -63,10 +63,14 @@ std::unique_ptr<const Shaded> shade(const RunRequest& run) {
 template <typename Visit>
 void for_each_random_pixel(std::size_t count, std::size_t of_each, Visit visit) {
   Random random(kSeed);
+  std::uint64_t refused = 0;
   for (std::uint64_t run = 0; count > 0; ++run) {
     SCOPED_TRACE(fmt::format("run {} of seed {}", run, kSeed));
     const auto shaded = shade(random_run(kSeed, run));
-    if (!shaded) continue;
+    if (!shaded) {
+      ASSERT_LT(++refused, 10 + run / 2) << "most hardware is legal";
+      continue;
+    }
     const std::vector<Pixel> covered = shaded->covered();
     for (std::size_t i = 0; i < of_each && count > 0 && !covered.empty(); ++i, --count) {
       const Pixel& pixel = covered[random.below(covered.size())];

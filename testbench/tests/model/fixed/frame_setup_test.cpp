@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "model/fixed/model_frame.h"
 #include "model/scene/input_error.h"
+#include "testbench/cases/random_effects.h"
 #include "testbench/cases/random_frame.h"
 
 namespace phongpipe {
@@ -334,6 +336,57 @@ TEST(SuitScene, GivesTheGateASeriesWhereDiffuseCannotTell) {
   red.materials[0].diffuse = Color(0.5, 0, 0);
   scene.lights[0].color = Color(0, 1, 1);
   EXPECT_EQ(gate(red, GateSource::diffuse), GateSource::series);
+}
+
+// Twice the width of the narrowest highlight must fit above full scale.
+TEST(SuitScene, GivesNarrowHighlightsGuardBits) {
+  const Scene scene = lit_scene(8, 8);
+  const auto guard_bits = [&scene](RomLayout layout, const Material& material) {
+    FrameConfiguration configuration;
+    configuration.rom_layout = layout;
+    return with_derived_blocks(configuration, scene, one_material(material)).specular_guard_bits;
+  };
+  for (const auto& [shininess, bits] :
+       {std::pair{1.0, 4}, {20.0, 4}, {40.0, 8}, {400.0, 8}, {10'000.0, 12}}) {
+    const Material material = grey_material(0.5, 0.5, shininess);
+    EXPECT_EQ(guard_bits(RomLayout::bipartite, material), bits) << shininess;
+    EXPECT_EQ(guard_bits(RomLayout::plain, material), kGuardBits) << shininess;
+  }
+  EXPECT_EQ(guard_bits(RomLayout::octave, grey_material(0.5, 0, 10'000)), 4) << "no highlight";
+}
+
+TEST(FrameSetup, OctaveLayoutsRefuseAShininessTheyCannotHold) {
+  const Scene scene = lit_scene(8, 8);
+  const auto set_up = [&scene](double specular, double shininess) {
+    FrameConfiguration configuration;
+    configuration.rom_layout = RomLayout::octave;
+    const Geometry geometry = one_material(grey_material(0.5, specular, shininess));
+    FrameSetup(scene, geometry, with_derived_blocks(configuration, scene, geometry));
+  };
+  for (const double legal : {0.0, 0.5, 1.0, 10'000.0}) EXPECT_NO_THROW(set_up(0.5, legal)) << legal;
+  for (const double refused : {0.3, 20'000.0, 1e30}) {
+    EXPECT_THROW(set_up(0.5, refused), InputError) << refused;
+    EXPECT_NO_THROW(set_up(0, refused)) << "no highlight";
+  }
+}
+
+// A matt material's shininess must not widen its series, which all hardware has.
+TEST(FrameSetup, MattMaterialsOfAnyShininessFitWithEveryEffect) {
+  RandomEffects effects;
+  Random random(5);
+  effects = random_effects(random);
+  effects.configuration.rom_layout = RomLayout::bipartite;
+  for (Material& material : effects.geometry.materials) {
+    material.specular = Color::Zero();
+    material.shininess = 1e6;
+  }
+  effects.geometry.materials[0].specular = Color::Ones();
+  effects.geometry.materials[0].shininess = 20;
+  const FrameSetup frame(
+      effects.scene, effects.geometry,
+      with_derived_blocks(effects.configuration, effects.scene, effects.geometry, Effects::all),
+      Effects::all);
+  EXPECT_EQ(run_model(frame).triangles.overflows, 0U);
 }
 
 }  // namespace
