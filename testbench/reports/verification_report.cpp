@@ -380,6 +380,7 @@ ordered_json report_json(const VerificationResult& r, const std::string& capsule
       {"within_budget", r.within_budget()},
       {"max_error_limit_lsb",
        r.options.max_error_lsb ? ordered_json(*r.options.max_error_lsb) : ordered_json()},
+      {"max_error_lsb", r.accuracy.total.largest_lsb},
       {"within_error", r.within_error()},
       {"clock_source", r.hardware.technology.source},
       {"limited_by", limiting_block(r)},

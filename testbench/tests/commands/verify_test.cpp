@@ -82,6 +82,7 @@ TEST_F(Program, VerifyChecksTheErrorOfEveryPixel) {
   EXPECT_EQ(result["worst_pixels"].size(), 10U);
   const nlohmann::json& worst = result["worst_pixels"][0];
   EXPECT_EQ(worst["error_lsb"], result["accuracy"]["max_lsb"]);
+  EXPECT_EQ(worst["error_lsb"], result["max_error_lsb"]);
   EXPECT_NE(failed.text.find(fmt::format("triangle {}, x {}, y {}", worst["triangle"].get<int>(),
                                          worst["x"].get<int>(), worst["y"].get<int>())),
             std::string::npos)
