@@ -31,18 +31,17 @@ class TableContents {
   TableContents(const DatapathConfiguration& configuration, double shininess, double scale,
                 double largest, Round round)
       : f_(configuration),
-        power_(configuration, shininess),
-        scale_(scale),
         largest_(largest),
         round_(round),
         contents_(static_cast<std::size_t>(configuration.rom_words())) {
     if (f_.rom_layout == RomLayout::plain) {
       for (int i = 0; i < f_.rom_words(); ++i) {
         const double x = ExponentRom::entry_x(f_, i, shininess);
-        word(i) = round_(std::min(scale_ * std::pow(x, shininess), largest_));
+        word(i) = round_(std::min(scale * std::pow(x, shininess), largest_));
       }
       return;
     }
+    compute_wanted(Power(configuration, shininess), scale);
     for (int block = 0; block <= f_.rom_octaves; ++block) {
       if (f_.rom_layout == RomLayout::octave) {
         fill_block(block);
@@ -61,14 +60,22 @@ class TableContents {
   int low_values() const { return 1 << f_.rom_low_bits(); }  // and middle ones, if bipartite
   int highs() const { return 1 << (f_.rom_block_bits() - 2 * f_.rom_low_bits()); }
 
-  // What the addresses with these bits below the leading one should read: the middle between the
-  // ends of the values of x^n.
+  // What addresses should read, by their block and their bits below the leading one: the middle
+  // between the ends of the values of x^n.
+  void compute_wanted(const Power& power, double scale) {
+    for (int block = 0; block <= f_.rom_octaves; ++block) {
+      const int size = 1 << f_.rom_block_bits(), leading = block == 0 ? 0 : size;
+      const double spacing = block == 0 ? 1 : std::ldexp(1, block - 1);
+      double near = power(leading * spacing);
+      for (int below = 0; below < size; ++below) {
+        const double far = power((leading + below + 1) * spacing);
+        wanted_.push_back(std::min(scale * (near + far) / 2, largest_));
+        near = far;
+      }
+    }
+  }
   double wanted(int block, int below) const {
-    const int leading = block == 0 ? 0 : 1 << f_.rom_block_bits();
-    const double spacing = block == 0 ? 1 : std::ldexp(1, block - 1);
-    const double near = power_((leading + below) * spacing);
-    const double far = power_((leading + below + 1) * spacing);
-    return std::min(scale_ * (near + far) / 2, largest_);
+    return wanted_[static_cast<std::size_t>((block << f_.rom_block_bits()) + below)];
   }
 
   void fill_block(int block) {
@@ -102,9 +109,9 @@ class TableContents {
   }
 
   const DatapathConfiguration& f_;
-  Power power_;
-  double scale_, largest_;
+  double largest_;
   Round round_;
+  std::vector<double> wanted_;  // of the octave layouts
   std::vector<double> contents_;
 };
 

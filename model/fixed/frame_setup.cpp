@@ -55,22 +55,6 @@ void require_shininess(const Scene& scene, const Geometry& geometry,
   }
 }
 
-// Integer bits above full scale that hold cosines of highlights from −2 to 1.
-int specular_guard_bits(const FixedPointFormats& formats, const Scene& scene,
-                        const Geometry& geometry) {
-  int bits = least_specular_guard_bits(formats.rom_layout);
-  if (formats.rom_layout == RomLayout::plain) return bits;
-  double least_reach = 1;
-  for (const Light& light : scene.lights) {
-    for (const Material& material : geometry.materials) {
-      if (!has_highlight(material, light)) continue;
-      least_reach = std::min(least_reach, highlight_reach(formats, material.shininess));
-    }
-  }
-  while (bits < kSpecularGuardBits && std::ldexp(least_reach, bits) < 3) bits += kSpecularGuardStep;
-  return bits;
-}
-
 // Whether `holds` for some material under some light.
 template <typename Condition>
 bool any_pair(const Scene& scene, const Geometry& geometry, Condition holds) {
@@ -80,18 +64,29 @@ bool any_pair(const Scene& scene, const Geometry& geometry, Condition holds) {
   });
 }
 
+// Integer bits above full scale that hold cosines of highlights from −2 to 1.
+int specular_guard_bits(const FixedPointFormats& formats, const Scene& scene,
+                        const Geometry& geometry) {
+  int bits = least_specular_guard_bits(formats.rom_layout);
+  if (formats.rom_layout == RomLayout::plain) return bits;
+  const auto too_wide = [&](const Material& material, const Light& light) {
+    return has_highlight(material, light) &&
+           std::ldexp(highlight_reach(formats, material.shininess), bits) < 3;
+  };
+  while (bits < kSpecularGuardBits && any_pair(scene, geometry, too_wide)) {
+    bits += kSpecularGuardStep;
+  }
+  return bits;
+}
+
 // Whether the diffuse series of some material under some light cannot gate its highlight.
 bool needs_gate_series(const FixedPointFormats& formats, const Scene& scene,
                        const Geometry& geometry) {
-  for (const Light& light : scene.lights) {
-    for (std::uint32_t i = 0; i < geometry.materials.size(); ++i) {
-      const Material& material = geometry.materials[i];
-      if (!has_highlight(material, light)) continue;
-      if (!is_lit(material, light)) return true;
-      if (diffuse_loses_sign(formats, scene, geometry, i, light)) return true;
-    }
-  }
-  return false;
+  return any_pair(scene, geometry, [&](const Material& material, const Light& light) {
+    return has_highlight(material, light) &&
+           (!is_lit(material, light) ||
+            diffuse_loses_sign(formats, scene, geometry, material, light));
+  });
 }
 
 // Whether two triangles cover the same pixel.

@@ -21,9 +21,9 @@ int extent_of(const ScreenTriangle& triangle, const Image& image) {
 }  // namespace
 
 bool diffuse_loses_sign(const FixedPointFormats& formats, const Scene& scene,
-                        const Geometry& geometry, std::uint32_t material, const Light& light) {
+                        const Geometry& geometry, const Material& material, const Light& light) {
   // Any channel opens the gate: the darkest that is lit decides.
-  const Color scales = kOutputMax * geometry.materials[material].diffuse * light.color;
+  const Color scales = kOutputMax * material.diffuse * light.color;
   const double scale = (scales > 0).select(scales, kOutputMax).minCoeff();
   // The largest |N·L| whose sign may be wrong.
   const auto doubtful = [&](int extent) {
@@ -32,7 +32,7 @@ bool diffuse_loses_sign(const FixedPointFormats& formats, const Scene& scene,
   if (doubtful(std::max(scene.image.width, scene.image.height)) <= kGateTolerance) return false;
   return std::any_of(
       geometry.triangles.begin(), geometry.triangles.end(), [&](const ScreenTriangle& triangle) {
-        if (triangle.material != material) return false;
+        if (&geometry.materials[triangle.material] != &material) return false;
         const double band = doubtful(extent_of(triangle, scene.image));
         if (band <= kGateTolerance) return false;
         double least = 1, most = -1;
