@@ -75,7 +75,8 @@ class TableContents {
     }
   }
   double wanted(int block, int below) const {
-    return wanted_[static_cast<std::size_t>((block << f_.rom_block_bits()) + below)];
+    const int place = (block << f_.rom_block_bits()) + below;
+    return wanted_[static_cast<std::size_t>(place)];
   }
 
   void fill_block(int block) {
