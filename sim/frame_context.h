@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "model/fixed/certificate.h"
 #include "model/fixed/front_end.h"
 #include "sim/pipeline.h"
 #include "sim/schedule.h"
@@ -27,6 +28,8 @@ struct FrameContext {
     const SetupTimes::Cost& cost = setup_times.of(work.setup.plan);
     busy += cost.cycles;
     result.setup_cycles += cost.cycles;
+    result.setup_cycles_by_path[path_of(frame, work.setup)] +=
+        static_cast<std::uint64_t>(cost.cycles);
     result.setup_operations = result.setup_operations + cost.operations;
     return outcome;
   }

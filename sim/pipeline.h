@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/fixed/framebuffer.h"
+#include "model/fixed/shading_path.h"
 #include "model/shading/dataflow.h"
 #include "sim/activity_recorder.h"
 #include "sim/clocked_datapath.h"
@@ -43,9 +44,12 @@ struct SimulationOptions {
 
 // Counts of one simulation.
 struct SimulationCounts {
-  std::int64_t frame_cycles = 0;     // until the framebuffer has taken the last pixel
-  std::int64_t datapath_cycles = 0;  // until pixel_datapath has delivered the last pixel
-  std::int64_t setup_cycles = 0;     // in which the setup engine was busy
+  std::int64_t frame_cycles = 0;       // until the framebuffer has taken the last pixel
+  std::int64_t datapath_cycles = 0;    // until pixel_datapath has delivered the last pixel
+  std::int64_t setup_cycles = 0;       // in which the setup engine was busy
+  Ledger setup_cycles_by_path;         // the same cycles
+  std::int64_t exact_path_cycles = 0;  // in which exact_path was busy
+  OperationCounts exact_path_operations;
   std::int64_t rom_load_cycles = 0;
   // Cycles in which a ClockedDatapath held a pixel or was offered a span; 0 by_span without a
   // ClockedDatapath.
@@ -58,14 +62,18 @@ struct SimulationCounts {
 
   static constexpr auto fields() {
     using C = SimulationCounts;
-    return std::make_tuple(
-        field("frame_cycles", &C::frame_cycles), field("datapath_cycles", &C::datapath_cycles),
-        field("setup_cycles", &C::setup_cycles), field("rom_load_cycles", &C::rom_load_cycles),
-        field("datapath_busy_cycles", &C::datapath_busy_cycles),
-        field("setup_operations", &C::setup_operations),
-        field("pixel_operations", &C::pixel_operations),
-        field("depth_additions", &C::depth_additions), field("modules", &C::modules),
-        field("failure", &C::failure));
+    return std::make_tuple(field("frame_cycles", &C::frame_cycles),
+                           field("datapath_cycles", &C::datapath_cycles),
+                           field("setup_cycles", &C::setup_cycles),
+                           field("setup_cycles_by_path", &C::setup_cycles_by_path),
+                           field("exact_path_cycles", &C::exact_path_cycles),
+                           field("exact_path_operations", &C::exact_path_operations),
+                           field("rom_load_cycles", &C::rom_load_cycles),
+                           field("datapath_busy_cycles", &C::datapath_busy_cycles),
+                           field("setup_operations", &C::setup_operations),
+                           field("pixel_operations", &C::pixel_operations),
+                           field("depth_additions", &C::depth_additions),
+                           field("modules", &C::modules), field("failure", &C::failure));
   }
 };
 

@@ -29,6 +29,10 @@ Settings<P> all_settings() {
             "units for 1/√x of the setup engine");
   add_units(all, &P::power, "power_units", "power_units_latency", "power_units_interval",
             "units for powers of the setup engine");
+  all.push_back(number_setting("exact_path", "exact_adders", &P::exact_adders, "", 1, 64,
+                               "adders of the unit that shades pixel by pixel, for max_error"));
+  all.push_back(number_setting("exact_path", "exact_multipliers", &P::exact_multipliers, "", 1, 64,
+                               "its multipliers"));
   all.push_back(number_setting("span_walker", "triangle_cycles", &P::walker_triangle_cycles,
                                "cycles", 1, 1000, "from taking a triangle to its first span"));
   all.push_back(number_setting("span_walker", "row_cycles", &P::walker_row_cycles, "cycles", 1,

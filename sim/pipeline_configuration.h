@@ -20,6 +20,9 @@ struct PipelineConfiguration {
   Units rsqrt = {1, 10, 2};
   Units power = {1, 8, 1};
 
+  // Of exact_path, whose other units are as those of setup_engine.
+  int exact_adders = 4, exact_multipliers = 6;
+
   int walker_triangle_cycles = 2;  // from taking a triangle to its first span
   int walker_row_cycles = 1;       // from one span to the next
 

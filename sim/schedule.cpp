@@ -50,7 +50,21 @@ Dataflow record_setup(const SeriesPlan& plan) {
   Recording recording;
   const TriangleInput<Recorded> triangle;
   const LightInput<Recorded> light;
-  setup_triangle(plan, triangle, light, bound_triangle(plan, triangle, light));
+  const TriangleBounds<Recorded> bounds = bound_triangle(plan, triangle, light);
+  if (plan.certify) {  // what each of the two candidates errs by
+    const ErrorScales<Recorded> scales;
+    const Recorded taylor = taylor_error(Recorded());
+    quadratic_errors(*bounds.certified, scales, taylor, taylor);
+    quadratic_errors(*bounds.certified, scales, Recorded(kSixPointError), Recorded(kSixPointError));
+  }
+  setup_triangle(plan, triangle, light, bounds);
+  if (plan.exact_path) {  // the vectors that it steps
+    const Interpolator<Recorded> interpolate(triangle.x, triangle.y);
+    const auto interpolated = [&](const Corners<Recorded>& v) { interpolate(v[0], v[1], v[2]); };
+    interpolated(triangle.normal);
+    if (plan.form.local_viewer) interpolated(triangle.eye);
+    if (plan.form.point_light) interpolated(triangle.light);
+  }
   return recording.dataflow();
 }
 
@@ -61,6 +75,60 @@ const SetupTimes::Cost& SetupTimes::of(const SeriesPlan& plan) {
   const Dataflow dataflow = record_setup(plan);
   known_.push_back({plan, dataflow.counts(), schedule_cycles(dataflow, *units_)});
   return known_.back();
+}
+
+Dataflow record_exact_pixel(const std::vector<ExactLight<double>>& lights, bool depth_cue,
+                            int channels) {
+  using Vector = Vector3<Recorded>;
+  Recording recording;
+  const auto stepped = [] {
+    return Vector(Vector(Recorded(), Recorded(), Recorded()) +
+                  Vector(Recorded(), Recorded(), Recorded()));
+  };
+  PointVectors<Recorded> at;
+  at.normal = stepped();
+  if (std::any_of(lights.begin(), lights.end(),
+                  [](const ExactLight<double>& light) { return light.form.local_viewer; })) {
+    at.eye = stepped();
+  }
+  std::array<Recorded, 3> color;
+  for (const ExactLight<double>& source : lights) {
+    ExactLight<Recorded> light;
+    light.form = source.form;
+    light.cone = source.cone;
+    if (light.form.point_light) at.light = stepped();
+    add_light(light, exact_point(light, at), channels, color);
+  }
+  if (depth_cue) {
+    const Recorded own = Recorded() + Recorded();  // steps, too
+    fade_to_cue({}, own, channels, color);
+  }
+  return recording.dataflow();
+}
+
+ExactPathTimes::ExactPathTimes(const PipelineConfiguration& configuration) : units_(configuration) {
+  units_.adders.count = configuration.exact_adders;
+  units_.multipliers.count = configuration.exact_multipliers;
+}
+
+const ExactPathTimes::Cost& ExactPathTimes::of(const FrameSetup& frame, const Material& material,
+                                               std::uint32_t index) {
+  const auto [place, added] = known_.try_emplace(index);
+  Cost& cost = place->second;
+  if (!added) return cost;
+  const Dataflow dataflow = record_exact_pixel(
+      exact_lights(frame, material), frame.configuration.depth_cue, frame.configuration.channels);
+  cost.operations = dataflow.counts();
+  cost.latency_cycles = schedule_cycles(dataflow, units_);
+  const auto interval = [](std::size_t operations, const Units& units) {
+    const int busy = static_cast<int>(operations) * units.interval;
+    return (busy + units.count - 1) / units.count;
+  };
+  cost.interval_cycles = std::max({1, interval(cost.operations.add, units_.adders),
+                                   interval(cost.operations.multiply, units_.multipliers),
+                                   interval(cost.operations.rsqrt, units_.rsqrt),
+                                   interval(cost.operations.power, units_.power)});
+  return cost;
 }
 
 int schedule_cycles(const Dataflow& dataflow, const PipelineConfiguration& units) {

@@ -1,5 +1,7 @@
 #include "model/fixed/datapath_configuration.h"
 
+#include <cmath>
+
 #include "model/scene/input_error.h"
 
 namespace phongpipe {
@@ -55,6 +57,10 @@ const Settings<SetupPolicy>& SetupPolicy::settings() {
           "setup_engine", "mantissa_bits", &P::mantissa_bits, "bits", 8, kDoubleMantissaBits,
           "of the setup engine's numbers: every operation is rounded to them; 52: double "
           "precision"),
+      decimal_setting(
+          "setup_engine", "max_error", &P::max_error_thousandths, "LSB", 1000, 0, 255'000,
+          "that no pixel exceeds, by proof: each triangle gets the cheapest of Taylor, six-point, "
+          "subdivision and exact path; series and subdivide_degrees play no part; 0: no proof"),
   };
   return all;
 }
@@ -80,6 +86,18 @@ void DatapathConfiguration::check() const {
 void FrameConfiguration::check() const {
   DatapathConfiguration::check();
   check_settings<SetupPolicy>(SetupPolicy::settings(), *this);
+  if (!certifies()) return;
+  if (mantissa_bits != kDoubleMantissaBits) {
+    throw InputError(fmt::format(
+        "setup_engine.max_error is proved for mantissa_bits = {}, not {}; leave one of them out",
+        kDoubleMantissaBits, mantissa_bits));
+  }
+  if (max_error_lsb() < least_certified_error_lsb(*this)) {
+    throw InputError(fmt::format(
+        "setup_engine.max_error = {:g} LSB: the least that can be had is {:g}: output rounding "
+        "alone errs by ½; or 0 for no limit",
+        max_error_lsb(), std::ceil(1000 * least_certified_error_lsb(*this)) / 1000));
+  }
 }
 
 std::vector<std::pair<std::string_view, int>> rtl_parameters(

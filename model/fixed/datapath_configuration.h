@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -139,6 +140,11 @@ struct SetupPolicy {
   int subdivide_degrees = 0;  // triangles that turn more sharply are split; 0: none
   // Of the setup engine's numbers, after the leading one; every operation is rounded to them.
   int mantissa_bits = kDoubleMantissaBits;
+  // Largest error of a pixel that is proved for every triangle, see certificate.h; 0: none is.
+  int max_error_thousandths = 0;  // of an output LSB
+
+  bool certifies() const { return max_error_thousandths > 0; }
+  double max_error_lsb() const { return max_error_thousandths / 1000.0; }
 
   static const Settings<SetupPolicy>& settings();
 };
@@ -147,6 +153,15 @@ struct SetupPolicy {
 struct FrameConfiguration : DatapathConfiguration, SetupPolicy {
   void check() const;
 };
+
+// What the arithmetic of exact_path, and of the exact Phong shading it is measured against, may
+// lose: pixels that could lose more are refused, see exact_path.h.
+constexpr double kExactPathNoise = 1e-3;
+
+// Error of exact_path: rounding to the diffuse register, to 8 bits, and noise.
+inline double least_certified_error_lsb(const DatapathConfiguration& datapath) {
+  return 0.5 + std::ldexp(0.5, -datapath.diffuse_fraction_bits) + kExactPathNoise;
+}
 
 // The parameters of pixel_datapath.sv, by name.
 std::vector<std::pair<std::string_view, int>> rtl_parameters(const DatapathConfiguration& datapath);

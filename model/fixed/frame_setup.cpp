@@ -258,6 +258,7 @@ MaterialSetup FrameSetup::set_up_material(std::uint32_t pass, const Material& ma
   setup.plan.gate = fitted_if(specular && configuration.has_gate_series());
   setup.plan.depth = depth_test && pass == 0;
   setup.plan.depth_cue = configuration.depth_cue;
+  setup.plan.certify = configuration.certifies();
   ReflectionForm& form = setup.plan.form;
   form.fit = configuration.series_fit;
   form.point_light = light.type != LightType::directional;
@@ -281,6 +282,11 @@ MaterialSetup FrameSetup::set_up_material(std::uint32_t pass, const Material& ma
     setup.table =
         table_of(material.specular * light.color * largest_attenuation, material.shininess);
     setup.first_visible_address = first_visible_address(tables[setup.table]);
+  }
+  if (setup.plan.certify) {  // its bounds tell, too, whether a series is needed
+    setup.plan.bound_light = !all && is_present(setup.plan.light());
+    setup.plan.bound_highlight = specular;
+    return setup;
   }
   // The cheaper series cost no more than their bounds do.
   const bool pays = form.fit == SeriesFit::weighted || form.fit == SeriesFit::focused;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "model/fixed/datapath_configuration.h"
@@ -46,6 +47,22 @@ struct MaterialSetup {
   }
 };
 
+// The fits of a triangle's two series under one light.
+struct CertifiedFits {
+  SeriesFit light = SeriesFit::six_point, highlight = SeriesFit::six_point;
+};
+
+// What is proved of the triangles of a frame, and how they are shaded for it; see certificate.h.
+struct Certificates {
+  struct Triangle {
+    bool exact = false;                // by exact_path
+    std::uint32_t refused_pixels = 0;  // of them: for which even that proves nothing
+    double error_lsb = 0;              // proved for the pixels; full scale if some are refused
+  };
+  std::vector<Triangle> triangles;  // those of the geometry
+  std::vector<CertifiedFits> fits;  // of each triangle under each light, light by light
+};
+
 struct FrameSetup {
   FrameConfiguration configuration;
   Effects effects = Effects::derived;
@@ -61,13 +78,21 @@ struct FrameSetup {
   OutputColor background = {};
   const Scene* scene = nullptr;  // all three must outlive the setup
   const Geometry* geometry = nullptr;
-  GeometryMemo* memo = nullptr;  // of the geometry under the scene's lights; or none
+  GeometryMemo* memo = nullptr;              // of the geometry under the scene's lights; or none
+  std::optional<Certificates> certificates;  // filled in by PreparedFrame, if the policy asks
 
   // Throws InputError if the scene uses what the pipeline does not simulate, or the configuration
   // is out of range. The blocks of `configuration` must be those that the scene requires, see
   // derive_blocks.
   FrameSetup(const Scene& scene, const Geometry& geometry, const FrameConfiguration& configuration,
              Effects effects = Effects::derived, GeometryMemo* memo = nullptr);
+
+  bool takes_exact_path(std::uint32_t triangle) const {
+    return certificates && certificates->triangles[triangle].exact;
+  }
+  const CertifiedFits& fits(std::uint32_t triangle, std::uint32_t pass) const {
+    return certificates->fits[pass * certificates->triangles.size() + triangle];
+  }
 
   const MaterialSetup& material(std::uint32_t pass, std::uint32_t material) const {
     return materials[pass * materials_of_a_pass + material];

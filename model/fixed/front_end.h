@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "model/fixed/cone.h"
+#include "model/fixed/exact_path.h"
+#include "model/fixed/shading_path.h"
 #include "model/fixed/span_walker.h"
 
 namespace phongpipe {
@@ -35,6 +37,7 @@ class FrontEnd {
       return SetupOutcome::nothing;
     }
     cover(source, frame_->width, frame_->height, work.rows);
+    if (frame_->takes_exact_path(triangle)) return set_up_exact(triangle, pass, work);
     split_at_cone(frame_->scene->lights[pass], source, work.rows);
     const auto dark = [](const RowSpan& row) { return !row.lit; };
     if (pass > 0) {
@@ -42,7 +45,9 @@ class FrontEnd {
     }
     if (work.rows.empty()) return SetupOutcome::nothing;
     const Pixel origin = expansion_pixel(source, work.rows);
-    work.setup = setup_engine_.set_up(triangle, pass, origin.x, origin.y, longest_row(work.rows));
+    work.setup =
+        setup_engine_.set_up(triangle, pass, origin.x, origin.y, longest_row(work.rows),
+                             frame_->certificates ? &frame_->fits(triangle, pass) : nullptr);
     return pass > 0 && !adds(work.setup.plan) ? SetupOutcome::left_out : SetupOutcome::ready;
   }
 
@@ -53,6 +58,18 @@ class FrontEnd {
   std::uint32_t passes() const { return frame_->passes; }
 
  private:
+  // All lights come with the first; of the others only the certificate is computed.
+  SetupOutcome set_up_exact(std::uint32_t triangle, std::uint32_t pass, TriangleWork& work) const {
+    if (work.rows.empty()) return SetupOutcome::nothing;
+    const ScreenTriangle& source = frame_->geometry->triangles[triangle];
+    const Pixel origin = expansion_pixel(source, work.rows);
+    work.setup = setup_engine_.set_up_exact(triangle, pass, origin.x, origin.y);
+    if (pass > 0) return SetupOutcome::left_out;
+    work.setup.exact_values = shade_exactly(*frame_, source, work.rows).values;
+    work.rows = one_pixel_rows(work.rows);
+    return SetupOutcome::ready;
+  }
+
   const FrameSetup* frame_;
   SetupEngine setup_engine_;
   SpanWalker span_walker_;

@@ -1,5 +1,7 @@
 #include "model/fixed/model_frame.h"
 
+#include "model/fixed/certificate.h"
+
 namespace phongpipe {
 
 SpanStream::SpanStream(const FrameSetup& frame, Evaluation evaluation)
@@ -18,10 +20,13 @@ bool SpanStream::next_triangle() {
       continue;
     }
     bool overflow = work_.setup.overflow;
+    std::uint64_t pixels = 0;
     for (const RowSpan& row : work_.rows) {
+      pixels += static_cast<std::uint64_t>(row.length);
       overflow = overflow || !front_end_.span_walker().fits(work_.setup, row);
     }
     triangles_.overflows += overflow ? 1 : 0;
+    count_pixels(frame_, work_.setup, pixels, ledger_);
     next_row_ = 0;
     order_.advance();
     return true;
@@ -73,7 +78,7 @@ std::vector<std::uint32_t> ModelFrame::colors() const {
 }
 
 ModelFrame run_model(const FrameSetup& frame, const ObserveSpan& observe, Evaluation evaluation) {
-  ModelFrame result{Framebuffer(frame, Framebuffer::Owners::kept), {}, 0};
+  ModelFrame result{Framebuffer(frame, Framebuffer::Owners::kept), {}, 0, {}};
   SpanStream stream(frame, evaluation);
   std::vector<std::uint8_t> taken;
   while (stream.next()) {
@@ -84,6 +89,7 @@ ModelFrame run_model(const FrameSetup& frame, const ObserveSpan& observe, Evalua
     if (observe) observe(stream.span(), stream.colors());
   }
   result.triangles = stream.triangles();
+  result.ledger = stream.ledger();
   return result;
 }
 

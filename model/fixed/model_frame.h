@@ -7,6 +7,7 @@
 #include "model/fixed/framebuffer.h"
 #include "model/fixed/front_end.h"
 #include "model/fixed/pixel_datapath.h"
+#include "model/fixed/shading_path.h"
 
 namespace phongpipe {
 
@@ -29,6 +30,7 @@ class SpanStream {
   // The colour of each pixel of the span.
   const std::uint32_t* colors() const { return colors_.data() + first_color_; }
   const TriangleCounts& triangles() const { return triangles_; }
+  const Ledger& ledger() const { return ledger_; }
 
  private:
   bool next_batch();
@@ -45,12 +47,14 @@ class SpanStream {
   std::vector<std::uint32_t> colors_;
   std::size_t current_ = 0, first_color_ = 0;
   TriangleCounts triangles_;
+  Ledger ledger_;
 };
 
 struct ModelFrame {
   Framebuffer framebuffer;  // with owners
   TriangleCounts triangles;
   std::uint64_t pixels = 0;  // shaded
+  Ledger ledger;             // of these, by how they are shaded
 
   // Channel 0 in the low byte.
   std::vector<std::uint32_t> colors() const;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "model/fixed/certificate.h"
 #include "model/fixed/frame_setup.h"
 #include "model/scene/subdivision.h"
 
@@ -60,12 +61,15 @@ struct PreparedFrame {
   PreparedFrame(std::shared_ptr<const PreparedScene> prepared_, const FixedPointFormats& formats,
                 const SetupPolicy& policy, Effects effects = Effects::derived)
       : prepared(std::move(prepared_)),
-        subdivided(prepared->subdivided(policy.subdivide_degrees)),
+        subdivided(policy.certifies() ? split_for_certificate(*prepared, formats, policy, effects)
+                                      : prepared->subdivided(policy.subdivide_degrees)),
         // The analyser does not look into FrameSetup's constructor, which is in another file.
         // NOLINTNEXTLINE(clang-analyzer-optin.cplusplus.UninitializedObject)
         setup(scene(), geometry(),
-              {{formats, derive_blocks(formats, scene(), geometry(), effects)}, policy}, effects,
-              subdivided->memo.get()) {}
+              {{formats, required_blocks(formats, policy, scene(), geometry(), effects)}, policy},
+              effects, subdivided->memo.get()) {
+    if (policy.certifies()) setup.certificates = certify(setup);
+  }
   PreparedFrame(Scene scene_, const FixedPointFormats& formats, const SetupPolicy& policy,
                 Effects effects = Effects::derived)
       : PreparedFrame(std::make_shared<const PreparedScene>(std::move(scene_)), formats, policy,
@@ -73,9 +77,38 @@ struct PreparedFrame {
   PreparedFrame(const PreparedFrame&) = delete;
   PreparedFrame& operator=(const PreparedFrame&) = delete;
 
+  // The blocks that the scene's effects and the policy require: exact_path shows its pixels through
+  // the diffuse series.
+  static EffectBlocks required_blocks(const FixedPointFormats& formats, const SetupPolicy& policy,
+                                      const Scene& scene, const Geometry& geometry,
+                                      Effects effects) {
+    EffectBlocks blocks = derive_blocks(formats, scene, geometry, effects);
+    blocks.diffuse = blocks.diffuse || policy.certifies();
+    return blocks;
+  }
+
   const Scene& scene() const { return prepared->scene; }
   const Subdivision& subdivision() const { return subdivided->subdivision; }
   const Geometry& geometry() const { return subdivision().geometry; }
+
+ private:
+  // By the certificates of the frame of whole triangles.
+  static std::shared_ptr<const SubdividedGeometry> split_for_certificate(
+      const PreparedScene& prepared, const FixedPointFormats& formats, const SetupPolicy& policy,
+      Effects effects) {
+    const FrameSetup whole(
+        prepared.scene, prepared.geometry,
+        {{formats, required_blocks(formats, policy, prepared.scene, prepared.geometry, effects)},
+         policy},
+        effects);
+    const Certifier certifier(whole);
+    auto result = std::make_shared<SubdividedGeometry>();
+    result->subdivision =
+        subdivide(prepared.geometry, [&](const ScreenTriangle& triangle, int levels) {
+          return certifier.wants_split(triangle, levels);
+        });
+    return result;
+  }
 };
 
 }  // namespace phongpipe

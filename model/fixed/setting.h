@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -21,6 +22,7 @@ struct SettingDescription {
   int low = 0, high = 0;                  // the legal values, inclusive
   std::vector<std::string_view> choices;  // names of the values from 0; empty for a number
   std::string_view rtl_parameter;         // of pixel_datapath.sv; empty where it has none
+  int per_unit = 1;                       // the value counts parts of the unit, so many to one
 
   std::string name() const { return fmt::format("{}.{}", section, key); }
   // Whether the setting is meant by `text`: its key, or section and key.
@@ -32,9 +34,12 @@ struct SettingDescription {
   }
   // A value as text, as in files and --set.
   std::string text(int value) const {
-    return choices.empty() ? fmt::format("{}", value)
-                           : std::string(choices[static_cast<std::size_t>(value)]);
+    if (!choices.empty()) return std::string(choices[static_cast<std::size_t>(value)]);
+    return per_unit == 1 ? fmt::format("{}", value) : fmt::format("{:.10g}", in_units(value));
   }
+  double in_units(int value) const { return static_cast<double>(value) / per_unit; }
+  // The nearest value to a number of units.
+  int parts(double units) const { return static_cast<int>(std::lround(units * per_unit)); }
 };
 
 // Of a `Record` that holds the value.
@@ -48,8 +53,8 @@ struct Setting : SettingDescription {
   void check(const Record& record) const {
     const int value = get(record);
     if (value >= low && value <= high) return;
-    throw InputError(
-        fmt::format("{} = {} is out of range: {} to {} {}", name(), value, low, high, unit));
+    throw InputError(fmt::format("{} = {} is out of range: {} to {} {}", name(), text(value),
+                                 text(low), text(high), unit));
   }
   // The same setting for a record that has `part` as a member.
   template <typename Whole>
@@ -75,6 +80,16 @@ Setting<Record> number_setting(std::string_view section, std::string_view key, i
   return {{section, key, unit, meaning, low, high, {}, rtl_parameter},
           [member](const Record& record) { return record.*member; },
           [member](Record& record, int value) { record.*member = value; }};
+}
+
+// A number with decimals, held in parts of its unit, `per_unit` to one, from `low` to `high` parts.
+template <typename Record>
+Setting<Record> decimal_setting(std::string_view section, std::string_view key, int Record::*member,
+                                std::string_view unit, int per_unit, int low, int high,
+                                std::string_view meaning) {
+  Setting<Record> setting = number_setting(section, key, member, unit, low, high, meaning);
+  setting.per_unit = per_unit;
+  return setting;
 }
 
 // One of `choices`, which name the enumerators in their order.

@@ -98,6 +98,11 @@ TriangleCoefficients<double> compute_rounded(SeriesPlan& plan, const LightInput<
   return values(setup_triangle(plan, rounded_vertices, rounded_light, bounds));
 }
 
+void choose_fits(SeriesPlan& plan, const CertifiedFits& fits) {
+  plan.form.fit = fits.light;
+  plan.certified_highlight = fits.highlight;
+}
+
 }  // namespace
 
 SetupEngine::SetupEngine(const FrameSetup& frame) : frame_(&frame) {}
@@ -109,21 +114,20 @@ GeometryMemo::Triangle& SetupEngine::known(std::uint32_t triangle, std::uint32_t
   return found == nullptr ? otherwise : *found;
 }
 
-TriangleInput<double> SetupEngine::input(std::uint32_t triangle, std::uint32_t pass, int x,
-                                         int y) const {
-  const ScreenTriangle& source = frame_->geometry->triangles[triangle];
-  const std::optional<DepthCue>& cue = frame_->scene->depth_cue;
+TriangleInput<double> triangle_input(const FrameSetup& frame, const ScreenTriangle& source,
+                                     std::uint32_t pass, int x, int y) {
+  const std::optional<DepthCue>& cue = frame.scene->depth_cue;
   TriangleInput<double> input;
   for (std::size_t i = 0; i < 3; ++i) {
     const ScreenVertex& vertex = source.vertices[i];
     input.x[i] = in_pixels(vertex.x) - (x + 0.5);
     input.y[i] = in_pixels(vertex.y) - (y + 0.5);
-    input.z[i] = (vertex.z - frame_->depth_offset) * frame_->depth_scale;
+    input.z[i] = (vertex.z - frame.depth_offset) * frame.depth_scale;
     input.normal[i] = vertex.normal;
     input.eye[i] = vertex.eye;
-    input.light[i] = light_vector(frame_->scene->lights[pass], vertex);
+    input.light[i] = light_vector(frame.scene->lights[pass], vertex);
     input.cue_factor[i] =
-        cue ? (cue->far - view_distance(*frame_->scene, vertex)) / (cue->far - cue->near) : 1;
+        cue ? (cue->far - view_distance(*frame.scene, vertex)) / (cue->far - cue->near) : 1;
   }
   // Wholly beyond an end the share is the end's, however far beyond.
   const auto [least, most] = std::minmax_element(input.cue_factor.begin(), input.cue_factor.end());
@@ -136,9 +140,12 @@ TriangleCoefficients<double> SetupEngine::coefficients(std::uint32_t triangle, s
   const MaterialSetup& material =
       frame_->material(pass, frame_->geometry->triangles[triangle].material);
   SeriesPlan plan = material.plan;
+  if (frame_->certificates) choose_fits(plan, frame_->fits(triangle, pass));
+  const TriangleInput<double> vertices =
+      triangle_input(*frame_, frame_->geometry->triangles[triangle], pass, x, y);
   GeometryMemo::Triangle alone;
-  return compute_in_double(plan, material.light, input(triangle, pass, x, y),
-                           known(triangle, pass, alone).whole, [](const auto&...) {});
+  return compute_in_double(plan, material.light, vertices, known(triangle, pass, alone).whole,
+                           [](const auto&...) {});
 }
 
 SeriesPlan SetupEngine::simplified_plan(const MaterialSetup& material,
@@ -197,7 +204,7 @@ void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
 }
 
 TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
-                                  int longest_row) const {
+                                  int longest_row, const CertifiedFits* fits) const {
   const FrameConfiguration& configuration = frame_->configuration;
   TriangleSetup setup;
   setup.x = x;
@@ -205,8 +212,10 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
   setup.triangle = triangle;
   setup.pass = pass;
   setup.material = &frame_->material(pass, frame_->geometry->triangles[triangle].material);
-  const TriangleInput<double> vertices = input(triangle, pass, x, y);
+  const TriangleInput<double> vertices =
+      triangle_input(*frame_, frame_->geometry->triangles[triangle], pass, x, y);
   SeriesPlan plan = simplified_plan(*setup.material, vertices);
+  if (fits != nullptr) choose_fits(plan, *fits);
   const auto leave_out_of_plan = [&](const SeriesRange<double>& light_range,
                                      const SeriesRange<double>& highlight) {
     leave_out(plan, *setup.material, vertices, light_range, highlight, longest_row);
@@ -251,6 +260,26 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
     setup.cue_factor = round_coefficients(
         exact.cue_factor, setup_fraction_bits(configuration, kCueFraction), setup.overflow);
   }
+  return setup;
+}
+
+TriangleSetup SetupEngine::set_up_exact(std::uint32_t triangle, std::uint32_t pass, int x,
+                                        int y) const {
+  TriangleSetup setup;
+  setup.x = x;
+  setup.y = y;
+  setup.triangle = triangle;
+  setup.pass = pass;
+  setup.material = &frame_->material(pass, frame_->geometry->triangles[triangle].material);
+  setup.plan = setup.material->plan;
+  setup.plan.diffuse = setup.plan.specular = setup.plan.gate = SeriesForm::absent;
+  setup.plan.exact_path = true;
+  if (!setup.plan.depth) return setup;
+  const TriangleInput<double> vertices =
+      triangle_input(*frame_, frame_->geometry->triangles[triangle], pass, x, y);
+  const Interpolator<double> interpolate(vertices.x, vertices.y);
+  setup.depth = round_coefficients(interpolate(vertices.z[0], vertices.z[1], vertices.z[2]),
+                                   kDepthFraction, setup.overflow);
   return setup;
 }
 

@@ -22,7 +22,13 @@ struct TriangleSetup {
   FixedQuadratic gate;
   FixedLinear depth, cue_factor;
   bool overflow = false;
+  // Of exact_path: the final colour of each pixel in the diffuse format, see exact_path.h.
+  std::vector<std::array<std::int64_t, 3>> exact_values;
 };
+
+// The vertices of a triangle under the light of a pass, from the centre of pixel (x, y).
+TriangleInput<double> triangle_input(const FrameSetup& frame, const ScreenTriangle& triangle,
+                                     std::uint32_t pass, int x, int y);
 
 class SetupEngine {
  public:
@@ -34,15 +40,19 @@ class SetupEngine {
   // Series that provably change no pixel are left out of the plan: a highlight whose words are all
   // 0, and light on a triangle that faces away from it. If all normals are equal, a series is only
   // its T0.
-  TriangleSetup set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
-                       int longest_row) const;
+  //
+  // With `fits`, these are the fits of the series, in place of the policy's.
+  TriangleSetup set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y, int longest_row,
+                       const CertifiedFits* fits = nullptr) const;
+
+  // The linear series of a triangle whose pixels exact_path shades in the first pass; no light.
+  TriangleSetup set_up_exact(std::uint32_t triangle, std::uint32_t pass, int x, int y) const;
 
   // The unrounded coefficients of the material's whole plan, to split errors into their causes.
   TriangleCoefficients<double> coefficients(std::uint32_t triangle, std::uint32_t pass, int x,
                                             int y) const;
 
  private:
-  TriangleInput<double> input(std::uint32_t triangle, std::uint32_t pass, int x, int y) const;
   // What the frame's memo has of a triangle, or `otherwise` if it has no place for it.
   GeometryMemo::Triangle& known(std::uint32_t triangle, std::uint32_t pass,
                                 GeometryMemo::Triangle& otherwise) const;

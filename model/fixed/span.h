@@ -13,6 +13,10 @@ namespace phongpipe {
 struct RowSpan {
   int x = 0, y = 0, length = 0;
   bool lit = true;  // false: outside the light's cone
+  // Of a pixel of exact_path: its place in TriangleSetup::exact_values. Such rows have one pixel.
+  std::int32_t exact = -1;
+
+  bool is_exact() const { return exact >= 0; }
 };
 
 struct Span {

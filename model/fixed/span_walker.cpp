@@ -47,6 +47,10 @@ bool SpanWalker::series_fits(const FixedQuadratic& t, int x, int y, int length,
 void SpanWalker::start(const TriangleSetup& setup, const RowSpan& row, Span& span) const {
   const int x = row.x - setup.x, y = row.y - setup.y;
   const SeriesPlan& plan = setup.plan;
+  if (row.is_exact()) {
+    start_exact(setup, row, span);
+    return;
+  }
   span.row = row;
   span.triangle = setup.triangle;
   span.table = setup.material->table;
@@ -76,7 +80,25 @@ void SpanWalker::start(const TriangleSetup& setup, const RowSpan& row, Span& spa
   span.depth_step = plan.depth ? setup.depth.a : 0;
 }
 
+// The datapath adds nothing to the colour of exact_path, and fades it no further.
+void SpanWalker::start_exact(const TriangleSetup& setup, const RowSpan& row, Span& span) const {
+  span = Span();
+  span.row = row;
+  span.triangle = setup.triangle;
+  span.table = setup.material->table;
+  span.first_pass = true;
+  span.step_diffuse = span.step_specular = span.highlight = false;
+  const auto& values = setup.exact_values[static_cast<std::size_t>(row.exact)];
+  for (std::size_t c = 0; c < values.size(); ++c) span.diffuse[c].v = values[c];
+  if (configuration_.depth_cue) span.cue.v = std::int64_t{1} << kCueFraction;
+  if (setup.plan.depth) {
+    span.depth = setup.depth.value(row.x - setup.x, row.y - setup.y);
+    span.depth_step = setup.depth.a;
+  }
+}
+
 bool SpanWalker::fits(const TriangleSetup& setup, const RowSpan& row) const {
+  if (row.is_exact()) return true;
   const int x = row.x - setup.x, y = row.y - setup.y;
   const FixedLinear& share = setup.cue_factor;
   if (setup.plan.depth_cue &&

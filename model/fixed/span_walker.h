@@ -25,6 +25,7 @@ class SpanWalker {
   bool fits(const TriangleSetup& setup, const RowSpan& row) const;
 
  private:
+  void start_exact(const TriangleSetup& setup, const RowSpan& row, Span& span) const;
   void start_series(const FixedQuadratic& t, int x, int y, SeriesStart& start) const;
   bool series_fits(const FixedQuadratic& t, int x, int y, int length, double limit) const;
 

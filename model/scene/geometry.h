@@ -35,6 +35,7 @@ struct ScreenVertex {
 struct ScreenTriangle {
   std::array<ScreenVertex, 3> vertices;
   std::uint32_t material = 0;  // index into Geometry::materials
+  bool piece = false;          // of a triangle that was subdivided
 };
 
 struct Geometry {

@@ -59,9 +59,9 @@ double nearest_highlight(const Light& light, const ScreenTriangle& triangle) {
   return nearest;
 }
 
-class Splitter {
+class SharpTurns {
  public:
-  Splitter(const Scene& scene, const Geometry& geometry, int largest_turn_degrees)
+  SharpTurns(const Scene& scene, const Geometry& geometry, int largest_turn_degrees)
       : scene_(scene), largest_turn_(largest_turn_degrees * kPi / 180) {
     for (const Material& material : geometry.materials) {
       highlight_radius_.push_back(is_shiny(material) ? radius_of_highlight(scene, material)
@@ -70,31 +70,7 @@ class Splitter {
     for (const Light& light : scene.lights) light_limit_.push_back(limit_of(light));
   }
 
-  void append(const ScreenTriangle& triangle, int levels,
-              std::vector<ScreenTriangle>& pieces) const {
-    if (levels == 0 || !turns_too_sharply(triangle)) {
-      pieces.push_back(triangle);
-      return;
-    }
-    const auto& [a, b, c] = triangle.vertices;
-    const ScreenVertex ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    for (const auto& corners : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
-      append({corners, triangle.material}, levels - 1, pieces);
-    }
-  }
-
- private:
-  // Light of a lamp close by bends by its own turning, and by that of the normals; within a cone it
-  // fades with a power.
-  double limit_of(const Light& light) const {
-    if (light.type == LightType::directional) return kPi;
-    constexpr double kShareOfReach = 1.0 / 3;
-    const double cone =
-        has_spot_factor(light) ? kShareOfReach * reach_of_power(light.spot_exponent) : kPi;
-    return std::min(largest_turn_ / 2, cone);
-  }
-
-  bool turns_too_sharply(const ScreenTriangle& triangle) const {
+  bool on(const ScreenTriangle& triangle) const {
     const double turned = turn(triangle, [](const ScreenVertex& v) { return v.normal; });
     if (turned > largest_turn_) return true;
     const double radius = highlight_radius_[triangle.material];
@@ -117,23 +93,45 @@ class Splitter {
     return false;
   }
 
+ private:
+  // Light of a lamp close by bends by its own turning, and by that of the normals; within a cone it
+  // fades with a power.
+  double limit_of(const Light& light) const {
+    if (light.type == LightType::directional) return kPi;
+    constexpr double kShareOfReach = 1.0 / 3;
+    const double cone =
+        has_spot_factor(light) ? kShareOfReach * reach_of_power(light.spot_exponent) : kPi;
+    return std::min(largest_turn_ / 2, cone);
+  }
+
   const Scene& scene_;
   double largest_turn_;
   std::vector<double> highlight_radius_;  // by material
   std::vector<double> light_limit_;       // by light
 };
 
+void append(const ScreenTriangle& triangle, int levels, const WantsSplit& wants,
+            std::vector<ScreenTriangle>& pieces) {
+  if (levels == 0 || !wants(triangle, levels)) {
+    pieces.push_back(triangle);
+    return;
+  }
+  const auto& [a, b, c] = triangle.vertices;
+  const ScreenVertex ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+  for (const auto& corners : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
+    append({corners, triangle.material, true}, levels - 1, wants, pieces);
+  }
+}
+
 }  // namespace
 
-Subdivision subdivide(const Scene& scene, const Geometry& geometry, int largest_turn_degrees) {
+Subdivision subdivide(const Geometry& geometry, const WantsSplit& wants) {
   Subdivision result;
   result.geometry = geometry;
   std::vector<ScreenTriangle>& pieces = result.geometry.triangles;
   pieces.clear();
-  const Splitter splitter(scene, geometry, largest_turn_degrees);
-  const int levels = largest_turn_degrees > 0 ? kSubdivisionLevels : 0;
   for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i) {
-    splitter.append(geometry.triangles[i], levels, pieces);
+    append(geometry.triangles[i], kSubdivisionLevels, wants, pieces);
     const std::size_t made = pieces.size() - result.whole.size();
     if (made > 1) {
       ++result.split;
@@ -142,6 +140,15 @@ Subdivision subdivide(const Scene& scene, const Geometry& geometry, int largest_
     result.whole.resize(pieces.size(), i);
   }
   return result;
+}
+
+Subdivision subdivide(const Scene& scene, const Geometry& geometry, int largest_turn_degrees) {
+  if (largest_turn_degrees == 0) {
+    return subdivide(geometry, [](const ScreenTriangle&, int) { return false; });
+  }
+  const SharpTurns sharp_turns(scene, geometry, largest_turn_degrees);
+  return subdivide(geometry,
+                   [&](const ScreenTriangle& triangle, int) { return sharp_turns.on(triangle); });
 }
 
 }  // namespace phongpipe

@@ -1,6 +1,8 @@
 // Subdivision, before setup, of triangles whose vectors turn too sharply for one quadratic.
 #pragma once
 
+#include <functional>
+
 #include "model/scene/geometry.h"
 
 namespace phongpipe {
@@ -26,5 +28,9 @@ struct Subdivision {
 // and with them exact Phong shading, are the same on the pieces as on the whole triangle. The
 // pieces cover the pixels of the triangle, each once, whether or not a neighbour is split too.
 Subdivision subdivide(const Scene& scene, const Geometry& geometry, int largest_turn_degrees);
+
+// The same for triangles that `wants` names, given how many levels may still follow.
+using WantsSplit = std::function<bool(const ScreenTriangle& triangle, int levels)>;
+Subdivision subdivide(const Geometry& geometry, const WantsSplit& wants);
 
 }  // namespace phongpipe

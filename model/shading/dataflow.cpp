@@ -16,6 +16,13 @@ OperationCounts operator+(const OperationCounts& a, const OperationCounts& b) {
   return sum;
 }
 
+OperationCounts operator*(std::size_t times, const OperationCounts& counts) {
+  OperationCounts product = counts;
+  std::apply([&](const auto&... field) { ((product.*field.member *= times), ...); },
+             OperationCounts::fields());
+  return product;
+}
+
 OperationCounts operator-(const OperationCounts& a, const OperationCounts& b) {
   OperationCounts difference = a;
   std::apply([&](const auto&... field) { ((difference.*field.member -= b.*field.member), ...); },

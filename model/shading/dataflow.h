@@ -30,6 +30,7 @@ struct OperationCounts {
 };
 OperationCounts operator+(const OperationCounts& a, const OperationCounts& b);
 OperationCounts operator-(const OperationCounts& a, const OperationCounts& b);
+OperationCounts operator*(std::size_t times, const OperationCounts& counts);
 bool operator==(const OperationCounts& a, const OperationCounts& b);
 inline bool operator!=(const OperationCounts& a, const OperationCounts& b) {
   return !(a == b);

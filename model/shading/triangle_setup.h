@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "model/shading/fields.h"
+#include "model/shading/quadratics/reflection_bound.h"
 #include "model/shading/quadratics/reflection_series.h"
 #include "model/shading/quadratics/series_bound.h"
 
@@ -28,8 +29,11 @@ struct SeriesPlan {
   // Whether bounds of the series are computed first. A light that cannot reach the triangle is then
   // left out; a highlight that cannot be seen is left out, or at least fitted without weights.
   bool bound_light = false, bound_highlight = false;
-  bool highlight_invisible = false;  // proved by its bound
-  ReflectionForm form;               // except form.wanted, which setup_triangle() sets
+  bool highlight_invisible = false;              // proved by its bound
+  bool certify = false;                          // whether the error of the series is bounded, too
+  bool exact_path = false;                       // the series are absent, and exact_path is set up
+  std::optional<SeriesFit> certified_highlight;  // fit of the highlight, if it has its own
+  ReflectionForm form;                           // except form.wanted, which setup_triangle() sets
 
   static constexpr auto fields() {
     using P = SeriesPlan;
@@ -38,13 +42,17 @@ struct SeriesPlan {
         field("specular", &P::specular), field("depth", &P::depth),
         field("depth_cue", &P::depth_cue), field("bound_light", &P::bound_light),
         field("bound_highlight", &P::bound_highlight),
-        field("highlight_invisible", &P::highlight_invisible), field("form", &P::form));
+        field("highlight_invisible", &P::highlight_invisible), field("certify", &P::certify),
+        field("exact_path", &P::exact_path), field("certified_highlight", &P::certified_highlight),
+        field("form", &P::form));
   }
 
   // The form of the N·L series that diffuse and gate are multiples of.
   SeriesForm light() const { return is_present(diffuse) ? diffuse : gate; }
   // The fit of the highlight: one without weights if the highlight cannot be seen.
-  SeriesFit highlight_fit() const { return highlight_invisible ? SeriesFit::six_point : form.fit; }
+  SeriesFit highlight_fit() const {
+    return highlight_invisible ? SeriesFit::six_point : certified_highlight.value_or(form.fit);
+  }
 };
 
 inline bool operator==(const SeriesPlan& a, const SeriesPlan& b) {
@@ -70,17 +78,29 @@ struct LightInput {
 };
 
 // Bounds of a triangle's series, as cosines: of N·L for the weighted and focused fits, of the
-// highlight for the six_point fit.
+// highlight for the six_point fit. If errors are certified: of both series by any fit.
 template <typename T>
 struct TriangleBounds {
   SeriesRange<T> light, highlight;
   std::optional<QuadraticForm<T>> squared_length;  // |N|², which setup reuses
+  std::optional<Reflected<ReflectionBound<T>>> certified;
 };
 
 template <typename T>
 TriangleBounds<T> bound_triangle(const SeriesPlan& plan, const TriangleInput<T>& triangle,
                                  const LightInput<T>& light) {
   TriangleBounds<T> bounds;
+  if (plan.certify) {
+    bounds.certified =
+        bound_reflection(plan.form, light.terms, triangle.normal, triangle.eye, triangle.light);
+    const auto range = [](const ReflectionBound<T>& bound) {
+      const T off = bound.third * taylor_error(T(1));  // at most that far from a corner
+      return SeriesRange<T>{bound.low - off, bound.high + off};
+    };
+    bounds.light = range(bounds.certified->light);
+    bounds.highlight = range(bounds.certified->highlight);
+    return bounds;
+  }
   if (!plan.bound_light && !plan.bound_highlight) return bounds;
   bounds.squared_length = squared_length(triangle.normal);
   const FieldExtent<T> extent(*bounds.squared_length);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/clocked_fifo.h"
+#include "sim/exact_path.h"
 #include "sim/frame_context.h"
 
 namespace phongpipe::by_clock {
@@ -10,7 +11,11 @@ class SpanWalker : public sc_core::sc_module {
  public:
   SpanWalker(const sc_core::sc_module_name& name, FrameContext& context, sc_core::sc_clock& clk,
              ClockedFifo<WorkHandle>& triangles, ClockedFifo<Span>& spans)
-      : sc_core::sc_module(name), context_(context), triangles_(triangles), spans_(spans) {
+      : sc_core::sc_module(name),
+        context_(context),
+        triangles_(triangles),
+        spans_(spans),
+        timing_(context) {
     SC_METHOD(clock);
     sensitive << clk.posedge_event();
     dont_initialize();
@@ -28,14 +33,15 @@ class SpanWalker : public sc_core::sc_module {
       work_ = triangles_.front();
       triangles_.pop();
       row_ = 0;
-      cycles_left_ = context_.configuration.walker_triangle_cycles;
+      cycles_ = timing_.take(*work_);
+      cycles_left_ = cycles_.first;
       return;
     }
     if (cycles_left_ > 0) --cycles_left_;
     if (cycles_left_ > 0 || spans_.full()) return;
     spans_.push(context_.front_end.span_walker().start(work_->setup, work_->rows[row_]));
     ++written_;
-    cycles_left_ = context_.configuration.walker_row_cycles;
+    cycles_left_ = cycles_.next;
     if (++row_ == work_->rows.size()) work_ = nullptr;
   }
 
@@ -54,7 +60,9 @@ class SpanWalker : public sc_core::sc_module {
   ClockedFifo<Span>& spans_;
   WorkHandle work_;
   std::size_t row_ = 0;
-  int cycles_left_ = 0;
+  SpanTiming timing_;
+  SpanCycles cycles_;  // of the triangle
+  Cycle cycles_left_ = 0;
   std::uint64_t written_ = 0;
 };
 

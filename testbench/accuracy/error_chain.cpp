@@ -165,6 +165,10 @@ class TriangleChain {
     TriangleWork work;
     for (std::uint32_t pass = 0; pass < frame.passes; ++pass) {
       if (front_end.set_up(triangle, pass, work) == SetupOutcome::nothing) continue;
+      if (frame.takes_exact_path(triangle)) {
+        take_exact_values(work);
+        break;
+      }
       passes_.emplace_back(frame, front_end, work, links);
     }
   }
@@ -173,6 +177,11 @@ class TriangleChain {
 
   void start(const RowSpan& row) {
     row_ = row;
+    const auto before = [](const RowSpan& a, const RowSpan& b) {
+      return a.y != b.y ? a.y < b.y : a.x < b.x;
+    };
+    first_exact_ = std::lower_bound(exact_rows_.begin(), exact_rows_.end(), row, before) -
+                   exact_rows_.begin();
     for (PassChain& pass : passes_) pass.start_row(row.y);
     exact_.resize(std::max(exact_.size(), static_cast<std::size_t>(row.length)));
     phong_.shade(row.x, row.y, row.length, exact_.data());
@@ -180,10 +189,16 @@ class TriangleChain {
 
   // The links of pixel i of the row, but the output.
   void at(int i, ErrorChain& chain) const {
-    PassLight light;
-    for (const PassChain& pass : passes_) pass.add(row_.x + i, light);
     chain.shown = exact_[static_cast<std::size_t>(i)];
     chain.exact = chain.shown;
+    if (!exact_values_.empty()) {
+      chain.polynomial = chain.shown;
+      const Color& value = exact_values_[static_cast<std::size_t>(first_exact_ + i)];
+      chain.rounded = chain.address = chain.table = value;
+      return;
+    }
+    PassLight light;
+    for (const PassChain& pass : passes_) pass.add(row_.x + i, light);
     chain.polynomial = shown(light.polynomial, i);
     chain.rounded = shown(light.rounded, i);
     chain.address = shown(light.address, i);
@@ -191,6 +206,21 @@ class TriangleChain {
   }
 
  private:
+  // The colours of exact_path, which are of all lights, without the half that rounds them.
+  void take_exact_values(const TriangleWork& work) {
+    exact_rows_ = work.rows;
+    const DatapathConfiguration& f = frame_.configuration;
+    for (const auto& registers : work.setup.exact_values) {
+      Color value = Color::Zero();
+      for (int c = 0; c < f.channels; ++c) {
+        value[c] = std::ldexp(static_cast<double>(registers[static_cast<std::size_t>(c)]),
+                              -f.diffuse_fraction_bits) -
+                   0.5;
+      }
+      exact_values_.push_back(value);
+    }
+  }
+
   Color shown(const Color& light, int i) const {
     if (!frame_.configuration.depth_cue) return light.min(kOutputMax);
     const double factor = passes_.front().cue_factor(row_.x + i, row_.y);
@@ -204,6 +234,10 @@ class TriangleChain {
   Color cue_color_ = Color::Zero();
   RowSpan row_;
   std::vector<Color> exact_;
+  // Of a triangle of exact_path: its pixels, their values, and the first of the row.
+  std::vector<RowSpan> exact_rows_;
+  std::vector<Color> exact_values_;
+  std::ptrdiff_t first_exact_ = 0;
 };
 
 void take_output(const FrameSetup& frame, const ModelFrame& model, ErrorChain& links) {

@@ -35,9 +35,17 @@ RunRequest random_run(std::uint64_t seed, std::uint64_t index) {
   // Most runs leave most settings as they are, so that one cause stands out; some change all.
   const int one_in = random.integer(0, 3) == 0 ? 1 : 8;
   for (const Setting<Hardware>& setting : hardware_settings()) {
+    if (setting.key == "max_error") continue;
     const std::string value = random_value(random, setting);
     if (random.integer(1, one_in) == 1) run.settings.push_back(setting.name() + "=" + value);
   }
+  // Certified errors want full precision, and a limit that can be had.
+  static constexpr const char* kLimits[] = {"0.6", "1", "3", "12"};
+  const std::string limit = kLimits[random.below(std::size(kLimits))];
+  const bool rounded = std::any_of(
+      run.settings.begin(), run.settings.end(),
+      [](const std::string& setting) { return setting.find("mantissa_bits") != setting.npos; });
+  if (!rounded && random.integer(0, 2) == 0) run.settings.push_back("max_error=" + limit);
   run.options.budget_ns = 1e9;
   run.options.detail = random.integer(0, 1) == 0 ? Detail::span : Detail::cycle;
   if (random.integer(0, 2) == 0) run.options.stall_percent = random.integer(1, 60);

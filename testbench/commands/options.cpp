@@ -24,9 +24,10 @@ std::string settings_help() {
   for (const Setting<Hardware>& setting : hardware_settings()) {
     if (setting.section != section) text += fmt::format("\n[{}]\n", setting.section);
     section = setting.section;
-    const std::string range = setting.choices.empty()
-                                  ? fmt::format("{} to {}", setting.low, setting.high)
-                                  : fmt::format("{}", fmt::join(setting.choices, ", "));
+    const std::string range =
+        setting.choices.empty()
+            ? fmt::format("{} to {}", setting.text(setting.low), setting.text(setting.high))
+            : fmt::format("{}", fmt::join(setting.choices, ", "));
     text += fmt::format("  {:<42} {}{}{}; {}\n",
                         fmt::format("{} = {}", setting.key, setting.value(preset)), range,
                         setting.unit.empty() ? "" : " ", setting.unit, setting.meaning);

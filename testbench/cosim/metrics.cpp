@@ -40,6 +40,12 @@ double per_triangle(const Result& r, std::int64_t cycles) {
                               : static_cast<double>(cycles) / static_cast<double>(r.set_up.set_up);
 }
 
+// The pixels of a path of shading.
+template <ShadingPath path>
+MetricValue pixels_by(const Result& r) {
+  return count(r.ledger[path]);
+}
+
 std::vector<Metric> all_metrics() {
   constexpr auto kLess = Better::less, kMore = Better::more, kNeither = Better::neither;
   return {
@@ -60,6 +66,21 @@ std::vector<Metric> all_metrics() {
        [](const Result& r) { return count(r.set_up.left_out); }},
       {"pixels", "/pixels", "", kNeither, "pixels shaded, hidden ones and all lights included",
        [](const Result& r) { return count(r.pixels); }},
+      {"taylor_pixels", "/ledger/taylor", "", kNeither, "of them, by Taylor series",
+       pixels_by<ShadingPath::taylor>},
+      {"six_point_pixels", "/ledger/six_point", "", kNeither, "of them, by fits at six points",
+       pixels_by<ShadingPath::six_point>},
+      {"weighted_pixels", "/ledger/weighted", "", kNeither, "of them, by weighted fits",
+       pixels_by<ShadingPath::weighted>},
+      {"focused_pixels", "/ledger/focused", "", kNeither, "of them, by focused fits",
+       pixels_by<ShadingPath::focused>},
+      {"subdivided_pixels", "/ledger/subdivided", "", kNeither,
+       "of them, by any fit on pieces of triangles that were split",
+       pixels_by<ShadingPath::subdivided>},
+      {"exact_path_pixels", "/ledger/exact_path", "", kNeither, "of them, one by one by exact_path",
+       pixels_by<ShadingPath::exact_path>},
+      {"refused_pixels", "/ledger/refused", "", kLess,
+       "of them, by exact_path where even that proves no error", pixels_by<ShadingPath::refused>},
       {"visible_pixels", "/visible_pixels", "", kNeither, "pixels of the image that are covered",
        [](const Result& r) { return count(r.accuracy.visible_pixels); }},
 
@@ -120,6 +141,11 @@ std::vector<Metric> all_metrics() {
 
       {"max_lsb", "/accuracy/max_lsb", "LSB", kLess, "largest error against exact Phong shading",
        [](const Result& r) -> MetricValue { return r.accuracy.total.largest_lsb; }},
+      {"certified_error_lsb", "/certified_error_lsb", "LSB", kLess,
+       "proved for every pixel by setup_engine.max_error; none without it",
+       [](const Result& r) -> MetricValue {
+         return r.certified_error_lsb ? MetricValue(*r.certified_error_lsb) : MetricValue();
+       }},
       {"rms_lsb", "/accuracy/rms_lsb", "LSB", kLess, "root of the mean squared error",
        [](const Result& r) -> MetricValue { return r.accuracy.total.rms_lsb(); }},
       {"psnr_db", "/accuracy/psnr_db", "dB", kMore,

@@ -139,6 +139,10 @@ Failure failure_of(const VerificationResult& r) {
   if (!r.within_error()) {
     return {fmt::format("error: {}", r.worst_pixels.front().largest_part), r.over_limit_text()};
   }
+  if (!r.certificate_holds()) {
+    return {"certificate", fmt::format("a pixel is off by {:.3f} LSB where {:.3f} was proved",
+                                       r.accuracy.total.largest_lsb, *r.certified_error_lsb)};
+  }
   return {"budget", fmt::format("{:.2f} ns a pixel, over the budget of {:.10g}",
                                 r.frame_ns_per_pixel(), r.options.budget_ns)};
 }

@@ -14,7 +14,7 @@ namespace phongpipe {
 
 // Part of the identity of a run. Raise it whenever a change of the program may change pictures,
 // cycles or metrics of some run: results of other versions are then computed anew.
-constexpr int kArithmeticVersion = 3;
+constexpr int kArithmeticVersion = 4;
 
 // What to verify, as on the command line of `phongpipe verify`.
 struct RunRequest {

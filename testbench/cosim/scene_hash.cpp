@@ -91,8 +91,8 @@ class SceneHasher {
     add(x, y, z, normal, eye, position);
   }
   void add_one(const ScreenTriangle& triangle) {
-    const auto& [vertices, material] = triangle;
-    add(vertices, material);
+    const auto& [vertices, material, piece] = triangle;
+    add(vertices, material, piece);
   }
   void add_one(const Object& object) {
     const auto& [mesh, screen_triangles, primitive, segments, translate, rotate_degrees, scale,

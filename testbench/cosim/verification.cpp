@@ -214,6 +214,15 @@ std::string VerificationResult::over_limit_text() const {
                      accuracy.total.largest_lsb);
 }
 
+std::uint64_t VerificationResult::unit_cycles(ShadingPath path) const {
+  const SimulationCounts& counts = systemc.counts;
+  const std::uint64_t setup = counts.setup_cycles_by_path[path];
+  return setup + (path == ShadingPath::exact_path
+                      ? static_cast<std::uint64_t>(counts.exact_path_cycles)
+                  : path == ShadingPath::refused ? 0
+                                                 : ledger[path]);
+}
+
 bool VerificationResult::same_cycles() const {
   if (!rtl) return true;
   return cycle_difference() == 0 && rtl->counts.datapath_cycles == systemc.counts.datapath_cycles &&
@@ -222,7 +231,7 @@ bool VerificationResult::same_cycles() const {
 
 bool VerificationResult::passed() const {
   return agrees() && (!full_hardware || full_hardware->systemc.agrees()) && within_budget() &&
-         within_error() && set_up.overflows == 0;
+         within_error() && certificate_holds() && set_up.overflows == 0;
 }
 
 VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
@@ -268,6 +277,8 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   const ModelRun model = run_and_hash_model(frame.setup);
   result.set_up = model.frame.triangles;
   result.pixels = model.frame.pixels;
+  result.ledger = model.frame.ledger;
+  result.certified_error_lsb = certified_error(frame.setup);
   if (result.set_up.overflows > 0) {
     for (const SeriesRanges& ranges : register_ranges(frame.setup)) {
       if (!ranges.fits()) result.overflowing.push_back(ranges);

@@ -79,6 +79,9 @@ struct VerificationResult {
   std::size_t pieces = 0;           // that the split triangles became
   TriangleCounts set_up;            // counts pieces in place of split triangles
   std::uint64_t pixels = 0;         // shaded
+  Ledger ledger;                    // of these pixels, by how they were shaded
+  // Proved for every pixel, if the hardware certifies errors; full scale if some are refused.
+  std::optional<double> certified_error_lsb;
   // If values do not fit their registers: what the registers of each series hold.
   std::vector<SeriesRanges> overflowing;
   double rom_error = 0;  // largest of the power's tables, as a fraction of full scale
@@ -107,6 +110,14 @@ struct VerificationResult {
   bool within_error() const {
     return !options.max_error_lsb || accuracy.total.largest_lsb <= *options.max_error_lsb;
   }
+  // Whether the proved error holds where it was measured.
+  bool certificate_holds() const {
+    return !certified_error_lsb || accuracy.total.largest_lsb <= *certified_error_lsb;
+  }
+  // Cycles of the units for the pixels of a path: of the setup engine, and one a pixel of
+  // pixel_datapath or those of exact_path. Units work at the same time, so that the sum of all is
+  // more than the frame takes.
+  std::uint64_t unit_cycles(ShadingPath path) const;
   bool passed() const;
 };
 

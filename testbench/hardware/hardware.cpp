@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -25,7 +26,15 @@ struct ParsedValue {
   std::string complaint;
 };
 
+// So many fit an int in parts of any setting's unit.
+constexpr double kMostUnits = 1e5;
+
 ParsedValue parse_value(const HardwareSetting& setting, std::string_view text) {
+  if (setting.per_unit > 1) {
+    const auto number = parse_number(text);
+    if (number && std::fabs(*number) < kMostUnits) return {setting.parts(*number), {}};
+    return {{}, fmt::format("{} takes a number", setting.key)};
+  }
   if (setting.choices.empty()) {
     const auto integer = parse_integer(text);
     if (integer && *integer == static_cast<int>(*integer)) return {static_cast<int>(*integer), {}};
@@ -49,7 +58,9 @@ void read_settings(Hardware& hardware, const TomlTable& table, std::string& tech
       part = table.optional_table(section);
     }
     if (!part || !part->has(setting.key)) continue;
-    if (setting.choices.empty()) {
+    if (setting.per_unit > 1) {
+      setting.put(hardware, setting.parts(part->number(setting.key, {-kMostUnits, kMostUnits})));
+    } else if (setting.choices.empty()) {
       setting.put(hardware, part->integer(setting.key, std::numeric_limits<int>::min(),
                                           std::numeric_limits<int>::max()));
     } else {
@@ -109,8 +120,8 @@ Settings<Hardware> all_settings() {
   add(PipelineConfiguration::settings(), &Hardware::pipeline);
   add(FixedPointFormats::settings(), &Hardware::formats);
   const auto place = [](const HardwareSetting& setting) {
-    static constexpr std::string_view kSections[] = {"datapath", "setup_engine", "span_walker",
-                                                     "framebuffer", "queues"};
+    static constexpr std::string_view kSections[] = {"datapath",    "setup_engine", "exact_path",
+                                                     "span_walker", "framebuffer",  "queues"};
     return std::find(std::begin(kSections), std::end(kSections), setting.section);
   };
   std::stable_sort(all.begin(), all.end(), [&](const HardwareSetting& a, const HardwareSetting& b) {

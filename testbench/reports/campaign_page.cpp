@@ -44,6 +44,7 @@ class HardwareOfRows {
 
 Cell setting_cell(const Setting<Hardware>& setting, const Hardware& hardware) {
   if (!setting.choices.empty()) return setting.value(hardware);
+  if (setting.per_unit > 1) return MetricValue(setting.in_units(setting.get(hardware)));
   return MetricValue(static_cast<std::int64_t>(setting.get(hardware)));
 }
 

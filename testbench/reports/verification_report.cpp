@@ -71,6 +71,7 @@ std::string_view limiting_block(const VerificationResult& r) {
   // Without RTL only the cycles of pixels and tables are known.
   const std::int64_t busy = r.rtl ? r.rtl->counts.datapath_busy_cycles
                                   : static_cast<std::int64_t>(r.pixels) + counts.rom_load_cycles;
+  if (counts.exact_path_cycles >= std::max(busy, counts.setup_cycles)) return "exact_path";
   if (counts.setup_cycles >= busy) return "setup";
   // A datapath that is occupied for longer than its pixels and tables take waits for its output.
   const auto own = static_cast<double>(r.pixels) + static_cast<double>(counts.rom_load_cycles);
@@ -172,6 +173,11 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
     }
   }
   report_worst_pixels(page, r);
+  if (!r.certificate_holds()) {
+    page.line("error", page.toned(Tone::bad, fmt::format("at most {:.3f} LSB was proved: a bound "
+                                                         "is wrong",
+                                                         *r.certified_error_lsb)));
+  }
   if (!r.passed() && !style.command.empty()) {
     page.line("again",
               printable(style.command) +
@@ -192,6 +198,33 @@ std::string error_text(const VerificationResult& r) {
   const auto [link, largest] = largest_link(r.accuracy);
   return fmt::format("at most {:.2f} LSB, RMS {:.2f}; largest part: {} {:.2f}",
                      r.accuracy.total.largest_lsb, r.accuracy.total.rms_lsb(), link, largest);
+}
+
+// How the pixels were shaded, and what that took.
+void report_ledger(Page& page, const VerificationResult& r) {
+  if (r.certified_error_lsb) {
+    const std::uint64_t refused = r.ledger[ShadingPath::refused];
+    const std::string proved =
+        refused == 0
+            ? fmt::format("at most {:.3f} LSB proved for every pixel", *r.certified_error_lsb)
+            : page.toned(Tone::warning,
+                         fmt::format("nothing is proved for {} pixels", grouped(refused)));
+    page.line("ledger", proved);
+  } else {
+    page.plain("ledger");
+  }
+  for (std::size_t i = 0; i < kShadingPaths; ++i) {
+    const auto path = static_cast<ShadingPath>(i);
+    const std::uint64_t pixels = r.ledger[path], cycles = r.unit_cycles(path);
+    if (pixels == 0 && cycles == 0) continue;
+    page.line("", fmt::format("{:<11} {:>11} pixels {:5.1f} %, {:>11} cycles of units, {:.2f} ns a "
+                              "pixel",
+                              kShadingPathNames[i], grouped(pixels),
+                              100 * static_cast<double>(pixels) / static_cast<double>(r.pixels),
+                              grouped(cycles),
+                              r.clock_ns * static_cast<double>(cycles) /
+                                  static_cast<double>(std::max<std::uint64_t>(pixels, 1))));
+  }
 }
 
 void report_warnings(Page& page, const VerificationResult& r) {
@@ -267,6 +300,7 @@ void report_details(Page& page, const VerificationResult& r) {
                          c.diffuse_fraction_bits, c.specular_width() - 1 - c.specular_fraction_bits,
                          c.specular_fraction_bits, c.series(), c.rom_words(),
                          c.channels * c.rom_data_bits));
+  if (!r.certified_error_lsb) report_ledger(page, r);
   report_effects(page, r);
   page.plain("metrics");
   for (const Metric& metric : metrics()) {
@@ -294,7 +328,9 @@ ordered_json configuration_json(const VerificationResult& r) {
   ordered_json json = {{"hardware", r.hardware.name}, {"technology", r.hardware.technology.name}};
   for (const Setting<Hardware>& setting : hardware_settings()) {
     auto& value = json[std::string(setting.section)][std::string(setting.key)];
-    if (setting.choices.empty()) {
+    if (setting.per_unit > 1) {
+      value = setting.in_units(setting.get(r.hardware));
+    } else if (setting.choices.empty()) {
       value = setting.get(r.hardware);
     } else {
       value = setting.value(r.hardware);
@@ -330,6 +366,7 @@ std::string report_text(const VerificationResult& r, const ReportStyle& style) {
   }
   page.line("time", time_text(page, r));
   page.line("error", error_text(r));
+  if (r.certified_error_lsb) report_ledger(page, r);
   report_warnings(page, r);
   report_failures(page, r, style);
   std::string more = style.verbose ? "" : "--verbose";
@@ -388,6 +425,10 @@ ordered_json report_json(const VerificationResult& r, const std::string& capsule
   for (const Metric& metric : metrics()) {
     if (metric.json.empty()) continue;
     json[ordered_json::json_pointer(std::string(metric.json))] = metric.value(r);
+  }
+  for (std::size_t i = 0; i < kShadingPaths; ++i) {
+    json["ledger_cycles"][std::string(kShadingPathNames[i])] =
+        r.unit_cycles(static_cast<ShadingPath>(i));
   }
   json["worst_pixels"] = ordered_json::array();
   for (const WorstPixel& worst : r.worst_pixels) {

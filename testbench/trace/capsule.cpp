@@ -49,7 +49,9 @@ std::string hardware_toml(const Hardware& hardware) {
     const auto [place, added] = root.insert(setting.section, toml::table{});
     toml::table& section = *place->second.as_table();
     const std::string value = setting.value(hardware);
-    if (setting.choices.empty()) {
+    if (setting.per_unit > 1) {
+      section.insert(setting.key, setting.in_units(setting.get(hardware)));
+    } else if (setting.choices.empty()) {
       section.insert(setting.key, setting.get(hardware));
     } else {
       section.insert(setting.key, value);

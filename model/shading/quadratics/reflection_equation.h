@@ -6,6 +6,7 @@
 
 #include "model/scene/scene.h"
 #include "model/shading/fields.h"
+#include "model/shading/quadratics/sensitivity.h"
 #include "model/shading/quadratics/series_fit.h"
 #include "model/shading/quadratics/truncated_series.h"
 
@@ -60,6 +61,39 @@ struct ReflectionCosines {
   C light_eye{};     // L·E
   F spot{}, distance{};
 };
+
+// Vectors at a point, of any length: that of a light at a finite distance is its distance, and
+// vectors of lights and eyes at infinity are unit.
+template <typename T>
+struct PointVectors {
+  Vector3<T> normal, light, eye;
+};
+
+// Vectors of true length vanish if a light or the eye lies on the surface; results must stay
+// finite.
+constexpr double kLeastSquaredLength = 1e-30;
+
+template <typename T>
+ReflectionCosines<T> cosines_at(const ReflectionForm& form, const ReflectionTerms<T>& terms,
+                                const PointVectors<T>& at) {
+  const Vector3<T> normal = at.normal * rsqrt(at.normal.dot(at.normal));
+  Vector3<T> light = at.light, eye = at.eye;
+  ReflectionCosines<T> cosines;
+  if (form.point_light) {
+    const T squared = maximum(T(kLeastSquaredLength), light.dot(light));
+    const T inverse = rsqrt(squared);
+    light = light * inverse;
+    if (form.spot_factor) cosines.spot = light.dot(terms.spot_axis);
+    if (form.attenuated) cosines.distance = squared * inverse;
+  }
+  if (form.local_viewer) {
+    eye = eye * rsqrt(maximum(T(kLeastSquaredLength), eye.dot(eye)));
+  }
+  cosines.light = normal.dot(light);
+  cosines.eye = normal.dot(eye);
+  cosines.light_eye = light.dot(eye);
+  return cosines;
+}
 
 // Light: A N·L, not clamped, negative where unlit. Highlight: A^fold N·H or A^fold R·V.
 template <typename T, typename F, typename C>

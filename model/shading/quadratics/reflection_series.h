@@ -13,10 +13,6 @@ namespace phongpipe {
 
 namespace detail {
 
-// Vectors of true length vanish if a light or the eye lies on the surface; results must stay
-// finite.
-constexpr double kLeastSquaredLength = 1e-30;
-
 template <typename T>
 const Vector3<T>& scaled_vector(const Interpolator<T>&, const Vector3<T>& v) {
   return v;
@@ -143,31 +139,13 @@ class GeneralReflection {
     return result;
   }
 
-  struct Centre {
-    Vector3<T> normal, light, eye;
-  };
+  using Centre = PointVectors<T>;
   Centre at_centre(const Focus<T>& focus) const {
     return {focus.at_centre(normal_), detail::vector_at_centre(focus, light_),
             detail::vector_at_centre(focus, eye_)};
   }
   T highlight(const Centre& at) const {
-    const Vector3<T> normal = at.normal * rsqrt(at.normal.dot(at.normal));
-    Vector3<T> light = at.light, eye = at.eye;
-    ReflectionCosines<T> cosines;
-    if constexpr (!kConstantLight) {
-      const T squared = maximum(T(detail::kLeastSquaredLength), light.dot(light));
-      const T inverse = rsqrt(squared);
-      light = light * inverse;
-      if (form_.spot_factor) cosines.spot = light.dot(terms_.spot_axis);
-      if (form_.attenuated) cosines.distance = squared * inverse;
-    }
-    if constexpr (!kConstantEye) {
-      eye = eye * rsqrt(maximum(T(detail::kLeastSquaredLength), eye.dot(eye)));
-    }
-    cosines.light = normal.dot(light);
-    cosines.eye = normal.dot(eye);
-    cosines.light_eye = light.dot(eye);
-    return reflected(form_, {false, true}, terms_, cosines).highlight;
+    return reflected(form_, {false, true}, terms_, cosines_at(form_, terms_, at)).highlight;
   }
   GeneralReflection around(const Focus<T>& focus, const Centre& at) const {
     return {form_, terms_, focus.corners(normal_, at.normal),

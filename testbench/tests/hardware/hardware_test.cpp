@@ -57,12 +57,13 @@ TEST(Hardware, EveryRangeIsHeldAtBothEnds) {
     if (!setting.choices.empty()) continue;
     for (const int illegal : {setting.low - 1, setting.high + 1}) {
       try {
-        load_hardware("default", {setting.name() + "=" + std::to_string(illegal)});
+        load_hardware("default", {setting.name() + "=" + setting.text(illegal)});
         FAIL() << setting.name() << " = " << illegal << " is taken";
       } catch (const InputError& error) {
         const std::string message = error.what();
         EXPECT_NE(message.find(fmt::format("{} = {} is out of range: {} to {}", setting.name(),
-                                           illegal, setting.low, setting.high)),
+                                           setting.text(illegal), setting.text(setting.low),
+                                           setting.text(setting.high))),
                   std::string::npos)
             << message;
       }
