@@ -13,6 +13,10 @@
 namespace phongpipe {
 namespace {
 
+// Triangles of at most so many pixels take exact_path at once: that costs less than the setup of
+// series, and needs no bound.
+constexpr std::uint64_t kFewPixels = 24;
+
 // Outward rounding: the bounds themselves take fewer than 1,000 roundings of positive terms.
 constexpr double kOutward = 1 + 1e-12;
 
@@ -64,13 +68,13 @@ class LightCertificate {
     if (form.local_viewer) vectors.push_back(&input_.eye);
     const LightInput<double>& light = material_.light;
     scales_.noise = coefficient_noise(input_, extent, vectors);
-    if (is_present(material_.plan.diffuse)) {
-      const auto& diffuse = light.diffuse_scale;
-      scales_.diffuse = *std::max_element(diffuse.begin(), diffuse.end());
-    }
+    // What a material has not is 0 to the bit, whether it is built or left out.
+    const auto& diffuse = light.diffuse_scale;
+    scales_.diffuse = *std::max_element(diffuse.begin(), diffuse.end());
     scales_.light_rounding = rounding_bound(f, f.diffuse_fraction_bits, extent, longest_row);
     gate_scale_ = least_gate_scale();
-    if (is_present(material_.plan.specular)) {
+    if (is_present(material_.plan.specular) &&
+        frame.tables[material_.table].specular.maxCoeff() > 0) {
       table_ = &frame.tables[material_.table];
       scales_.specular = kOutputMax * table_->specular.maxCoeff();
       scales_.shininess = table_->shininess;
@@ -86,6 +90,8 @@ class LightCertificate {
     taylor_allowed_ = !form.point_light && !form.local_viewer;
   }
 
+  // Whether the light adds to the triangle's pixels at all.
+  bool adds() const { return scales_.diffuse > 0 || table_ != nullptr; }
   bool taylor_allowed() const { return taylor_allowed_; }
   double noise() const { return scales_.noise; }
 
@@ -98,7 +104,7 @@ class LightCertificate {
                          scales_.light_rounding / gate_scale_;
     const bool gated = frame_.configuration.gate != GateSource::off;
     const bool dark = bound_.light.high + doubt <= 0;
-    if (!dark) {
+    if (!dark && scales_.diffuse > 0) {
       result.total = errors.light;
       result.series = bound_.light.third * kappa(fits.light) * scales_.diffuse;
     }
@@ -152,7 +158,7 @@ class LightCertificate {
 // Of depth cueing, on top of the errors of lights: the share is truncated to kCueFactorBits, its
 // coefficients are rounded, and the result is rounded to 8 bits once more for each light.
 double cue_error(const FrameSetup& frame, double noise, double extent, int longest_row) {
-  if (!frame.configuration.depth_cue) return 0;
+  if (!frame.scene->depth_cue) return 0;
   const double share =
       std::ldexp(1, -kCueFactorBits) +
       std::ldexp(rounding_bound(frame.configuration, 0, extent, longest_row), -kCueFraction) +
@@ -183,9 +189,7 @@ QuadraticError Certifier::bound(const ScreenTriangle& triangle, const std::vecto
         lights.back().taylor_allowed() ? SeriesFit::taylor : SeriesFit::six_point;
     chosen.push_back({cheapest, cheapest});
     errors.push_back(lights.back().error(chosen.back()));
-    const SeriesPlan& plan = frame_.material(pass, triangle.material).plan;
-    const bool adds = is_present(plan.diffuse) || is_present(plan.specular);
-    if (pass == 0 || (adds && errors.back().total > 0)) {
+    if (pass == 0 || (lights.back().adds() && errors.back().total > 0)) {
       fixed +=
           0.5 + cue_error(frame_, lights.back().noise(),
                           std::max(frame_.width, frame_.height) + kGuardBand, longest_row(rows));
@@ -272,7 +276,9 @@ Certificates certify(const FrameSetup& frame) {
     if (rows.empty()) continue;
     fits.clear();
     Certificates::Triangle& triangle = result.triangles[i];
-    const double error = certifier.bound(triangles[i], rows, &fits).error_lsb;
+    triangle.bounded = pixels_of(rows) > kFewPixels;
+    double error = kOutputMax;
+    if (triangle.bounded) error = certifier.bound(triangles[i], rows, &fits).error_lsb;
     if (error <= frame.configuration.max_error_lsb() && fits_registers(i)) {
       triangle.error_lsb = error;
       for (std::uint32_t pass = 0; pass < frame.passes; ++pass) {

@@ -56,6 +56,7 @@ struct CertifiedFits {
 struct Certificates {
   struct Triangle {
     bool exact = false;                // by exact_path
+    bool bounded = true;               // whether the errors of quadratics were bounded before
     std::uint32_t refused_pixels = 0;  // of them: for which even that proves nothing
     double error_lsb = 0;              // proved for the pixels; full scale if some are refused
   };

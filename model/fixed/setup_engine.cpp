@@ -274,6 +274,7 @@ TriangleSetup SetupEngine::set_up_exact(std::uint32_t triangle, std::uint32_t pa
   setup.plan = setup.material->plan;
   setup.plan.diffuse = setup.plan.specular = setup.plan.gate = SeriesForm::absent;
   setup.plan.exact_path = true;
+  setup.plan.certify = frame_->certificates->triangles[triangle].bounded;
   if (!setup.plan.depth) return setup;
   const TriangleInput<double> vertices =
       triangle_input(*frame_, frame_->geometry->triangles[triangle], pass, x, y);

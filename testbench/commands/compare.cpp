@@ -7,6 +7,7 @@
 #include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
 #include "testbench/cosim/run.h"
+#include "testbench/methods/certified_curve.h"
 #include "testbench/methods/curves.h"
 #include "testbench/methods/operation_time.h"
 #include "testbench/reports/comparison_report.h"
@@ -30,7 +31,23 @@ struct NamedCurve {
   Curve curve;
 };
 
+constexpr const char* kMaxError = "max-error";  // the curve that is of scenes
+
+std::vector<NamedCurve> curves_of_scenes(const CompareCommandOptions& options,
+                                         const CurveOptions& how) {
+  const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
+  std::vector<NamedCurve> curves;
+  for (const std::string& name : options.scenes) {
+    const auto scene =
+        std::make_shared<const PreparedScene>(load_named_scene(name, options.hardware.overrides));
+    curves.push_back({fmt::format("max-error-{}", std::filesystem::path(name).stem().string()),
+                      certified_curve(scene, hardware, how.progress)});
+  }
+  return curves;
+}
+
 std::vector<NamedCurve> draw_curves(const CompareCommandOptions& options, const CurveOptions& how) {
+  if (options.curve == kMaxError) return curves_of_scenes(options, how);
   constexpr double kShininess = 20;
   if (options.curve == "curvature") {
     return {{"curvature-diffuse", curvature_curve(Parts::diffuse, kShininess, how)},
@@ -74,12 +91,16 @@ int compare_methods(const CompareCommandOptions& options) {
   if (options.scenes.empty() && options.curve.empty() && !options.microvax) {
     throw InputError("nothing to compare: give scenes, --curve NAME or --microvax");
   }
+  if (options.curve == kMaxError && options.scenes.empty()) {
+    throw InputError("--curve max-error is of scenes: compare SCENE --curve max-error");
+  }
   check_output(options.json);
   check_output(options.csv);
   if (!options.out.empty()) check_outputs(options.out, {options.out / "a-page"});
   Progress progress;
   if (options.microvax) print_or_throw(microvax_text());
   if (!options.curve.empty()) write_curves(options, progress);
+  if (options.curve == kMaxError) return 0;
   const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
   nlohmann::ordered_json results = nlohmann::ordered_json::array();
   std::string csv;
@@ -125,13 +146,14 @@ void add_compare(CLI::App& application, Run& run) {
   command
       ->add_option("--curve", options->curve,
                    "A curve over all methods: error over curvature, clocks over triangle size, or "
-                   "error over the exponent")
-      ->check(CLI::IsMember({"curvature", "size", "exponent"}));
+                   "error over the exponent; or, of scenes, time over the error that is proved")
+      ->check(CLI::IsMember({"curvature", "size", "exponent", kMaxError}));
   command->add_flag("--microvax", options->microvax,
                     "The paper's timings beside the operations counted");
   command->footer(
       "Example: phongpipe compare teapot --out out\n"
-      "         phongpipe compare --curve curvature --out out\n");
+      "         phongpipe compare --curve curvature --out out\n"
+      "         phongpipe compare teapot --curve max-error --out out\n");
   add_power_option(*command, options->power);
   options->hardware.add_to(*command);
   command->callback([options, &run] { run = [options] { return compare_methods(*options); }; });

@@ -278,7 +278,6 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   result.set_up = model.frame.triangles;
   result.pixels = model.frame.pixels;
   result.ledger = model.frame.ledger;
-  result.certified_error_lsb = certified_error(frame.setup);
   if (result.set_up.overflows > 0) {
     for (const SeriesRanges& ranges : register_ranges(frame.setup)) {
       if (!ranges.fits()) result.overflowing.push_back(ranges);
@@ -293,6 +292,11 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   wanted.one_core = options.one_core;
   wanted.limit_lsb = options.max_error_lsb.value_or(wanted.limit_lsb);
   result.accuracy = measure_accuracy(frame.setup, model.frame, wanted);
+  // Certificates are of shading: a pixel that shows the wrong triangle may have any colour.
+  result.certified_error_lsb = certified_error(frame.setup);
+  if (result.certified_error_lsb && !result.accuracy.misplaced.empty()) {
+    result.certified_error_lsb = kOutputMax;
+  }
   result.worst_pixels = describe_worst(frame, model.frame, result.accuracy);
   if (options.pictures) {
     result.result_picture = picture_of(model.frame.framebuffer, result.width, result.height,

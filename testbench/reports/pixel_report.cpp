@@ -180,13 +180,17 @@ class TextReport {
     plain(fmt::format("triangle {}", story_.triangle));
     for (const ScreenVertex& v : story_.whole.vertices) line("vertex", vertex_text(v));
     if (story_.piece) {
-      line("split", "it turns too sharply for one series; the piece here:");
+      line("split", "one series is not enough for it; the piece here:");
       for (const ScreenVertex& v : story_.piece->vertices) line("vertex", vertex_text(v));
     }
     line("normal", fmt::format("({}) at the pixel", list(numbers(story_.normal), "{:.6g}")));
     line("material", fmt::format("{}: ambient {}; diffuse {}; specular {}; shininess {}",
                                  printable(m.name), list(numbers(m.ambient)),
                                  list(numbers(m.diffuse)), list(numbers(m.specular)), m.shininess));
+    if (story_.certificate) {
+      line("proved", fmt::format("an error of at most {:.3f} LSB, {}", story_.certificate->error_lsb,
+                                 story_.certificate->exact ? "by exact_path" : "by quadratics"));
+    }
     line("effects", list(story_.effects.used));
     line("not built", list(story_.effects.left_out));
   }
@@ -389,6 +393,9 @@ ordered_json pixel_json(const PixelStory& story) {
                       {"diffuse", numbers(story.material.diffuse)},
                       {"specular", numbers(story.material.specular)},
                       {"shininess", story.material.shininess}};
+  json["certified_error_lsb"] =
+      story.certificate ? ordered_json(story.certificate->error_lsb) : ordered_json();
+  json["exact_path"] = story.certificate && story.certificate->exact;
   json["effects"] = {{"used", story.effects.used}, {"left_out", story.effects.left_out}};
   for (const LightStory& light : story.lights) json["lights"].push_back(light_json(story, light));
   json["neighbours"] = ordered_json::array();

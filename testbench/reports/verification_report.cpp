@@ -204,11 +204,19 @@ std::string error_text(const VerificationResult& r) {
 void report_ledger(Page& page, const VerificationResult& r) {
   if (r.certified_error_lsb) {
     const std::uint64_t refused = r.ledger[ShadingPath::refused];
-    const std::string proved =
-        refused == 0
-            ? fmt::format("at most {:.3f} LSB proved for every pixel", *r.certified_error_lsb)
-            : page.toned(Tone::warning,
-                         fmt::format("nothing is proved for {} pixels", grouped(refused)));
+    const std::size_t misplaced = r.accuracy.misplaced.size();
+    std::string proved =
+        fmt::format("at most {:.3f} LSB proved for every pixel", *r.certified_error_lsb);
+    if (refused > 0) {
+      proved = page.toned(Tone::warning,
+                          fmt::format("nothing is proved for {} pixels", grouped(refused)));
+    }
+    if (misplaced > 0) {
+      proved = page.toned(Tone::warning,
+                          fmt::format("nothing is proved where {} pixels show another triangle "
+                                      "than the nearest: raise framebuffer.depth_bits",
+                                      grouped(misplaced)));
+    }
     page.line("ledger", proved);
   } else {
     page.plain("ledger");

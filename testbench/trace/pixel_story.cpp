@@ -118,6 +118,10 @@ void compare_plans(const SeriesPlan& material, const SeriesPlan& triangle,
       left_out.push_back({fmt::format("T1 to T5 of {}", name), "all normals are equal"});
     }
   };
+  if (triangle.exact_path) {
+    left_out.push_back({"the series", "exact_path shades the triangle, all lights at once"});
+    return;
+  }
   constexpr const char* kFacesAway = "the triangle faces away from the light, by the bound of N·L";
   const char* const no_highlight =
       triangle.highlight_invisible ? "the highlight is invisible, by its bound" : kFacesAway;
@@ -160,6 +164,7 @@ class StoryTeller {
       story_.piece = frame_.geometry().triangles[winner];
     }
     story_.material = frame_.geometry().materials[story_.whole.material];
+    if (setup_.certificates) story_.certificate = setup_.certificates->triangles[winner];
     const auto& v = story_.whole.vertices;
     const Linear<Vec3> normal =
         screen_interpolator(story_.whole)(v[0].normal, v[1].normal, v[2].normal);

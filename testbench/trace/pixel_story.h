@@ -95,6 +95,8 @@ struct PixelStory {
   std::optional<ScreenTriangle> piece;  // that covers the pixel, if the triangle was split
   Material material;
   Vec3 normal = Vec3::Zero();  // unit, interpolated at the pixel
+  // Proved for the triangle, and whether exact_path shades it; if errors are certified.
+  std::optional<Certificates::Triangle> certificate;
   EffectSet effects;
   std::vector<LightStory> lights;
   std::vector<Neighbour> neighbours;

@@ -26,6 +26,7 @@ TEST_F(Program, CompareWritesAPageTablesAndCurves) {
   EXPECT_EQ(read_whole_file(file("size.svg")).substr(0, 4), "<svg");
   expect_refused({"compare"}, "nothing to compare");
   expect_refused({"compare", "--curve", "colour"}, "curvature");
+  expect_refused({"compare", "--curve", "max-error"}, "compare SCENE --curve max-error");
 }
 
 TEST_F(Program, ComparedJsonAloneGoesToStandardOutput) {
