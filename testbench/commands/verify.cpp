@@ -7,6 +7,7 @@
 
 #include "model/scene/input_error.h"
 #include "testbench/cases/named_scene.h"
+#include "testbench/commands/hard_cases.h"
 #include "testbench/commands/options.h"
 #include "testbench/reports/timeline_report.h"
 #include "testbench/reports/verification_page.h"
@@ -26,6 +27,7 @@ struct VerifyCommandOptions {
   std::string json;
   std::filesystem::path timeline;
   bool verbose = false;
+  bool hard_cases = false;  // in place of scenes
 };
 
 // Names for the scenes' pictures: the file's without folder and extension, numbered where two are
@@ -210,6 +212,19 @@ void add_run_option(CLI::App& command, const RunOption& option, VerificationOpti
 }
 
 int verify_scenes(VerifyCommandOptions options) {
+  if (options.hard_cases) {
+    if (!options.timeline.empty() || !options.hardware.overrides.empty()) {
+      throw InputError(
+          "--hard-cases: each case brings its scene and settings; only --out, --json, --verbose "
+          "and --rtl go with it, and names of cases");
+    }
+    return verify_hard_cases({options.scenes, options.pictures, options.json,
+                              options.verification.rtl_sources, options.verbose});
+  }
+  if (options.scenes.empty()) {
+    throw InputError(
+        "nothing to verify: give scenes, or --hard-cases; see phongpipe verify --help");
+  }
   options.verification.pictures = !options.pictures.empty();
   if (!options.timeline.empty()) {
     if (options.timeline.extension() != ".json") {
@@ -228,7 +243,6 @@ void add_verify(CLI::App& application, Run& run) {
   CLI::App* command = application.add_subcommand(
       "verify", "Compute every pixel three ways, compare them, and check the time budget");
   command->add_option("scenes", options->scenes, "Scene files, or names of shipped scenes")
-      ->required()
       ->type_name("SCENE");
   VerificationOptions& v = options->verification;
   for (const RunOption& option : run_options()) add_run_option(*command, option, v);
@@ -246,13 +260,17 @@ void add_verify(CLI::App& application, Run& run) {
           "Write what each SystemC module does in each cycle, as trace events for Perfetto "
           "(ui.perfetto.dev), and beside them a picture (SVG) of what limits the frame")
       ->type_name("FILE.json");
+  command->add_flag("--hard-cases", options->hard_cases,
+                    "Verify the shipped hard cases, or those named, a line each; --out gets a "
+                    "contact sheet");
   command->add_flag("-v,--verbose", options->verbose,
                     "Tell settings, effects and all metrics after the answer");
   add_rtl_option(*command, v.rtl_sources);
   command->footer(
       "Exit status: 0 all holds, 1 a check failed, 2 bad usage or input, 3 a tool or the machine "
       "failed.\n"
-      "Example: phongpipe verify teapot --budget 80 --set rom_address_bits=12 --out pictures\n");
+      "Example: phongpipe verify teapot --budget 80 --set rom_address_bits=12 --out pictures\n"
+      "         phongpipe verify --hard-cases --out hard\n");
   options->hardware.add_to(*command);
   command->callback([options, &run] { run = [options] { return verify_scenes(*options); }; });
 }

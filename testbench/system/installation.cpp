@@ -25,7 +25,7 @@ const Installation& installation() {
     }
     return Installation{
         shared / "hw",     shared / "rtl",  shared / "include",          shared / "scenes",
-        shared / "sweeps", shared / "page", prefix / "lib" / "phongpipe"};
+        shared / "sweeps", shared / "hard_cases", shared / "page", prefix / "lib" / "phongpipe"};
   }();
   return found;
 }

@@ -12,7 +12,7 @@ struct Installation {
   std::filesystem::path hardware;  // RTL, presets/, technology/
   std::filesystem::path rtl_shim;  // sources compiled with the Verilated RTL
   std::filesystem::path include;   // the headers of model/ that they include
-  std::filesystem::path scenes, sweeps;
+  std::filesystem::path scenes, sweeps, hard_cases;
   std::filesystem::path page;       // form, style and scripts of pages of results
   std::filesystem::path libraries;  // Verilator's runtime, and RTL that was built beforehand
 };
