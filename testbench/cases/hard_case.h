@@ -13,6 +13,7 @@
 #pragma once
 
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,11 @@ struct HardCase {
 
 // The shipped cases, by name.
 std::vector<HardCase> hard_cases();
+
+// For names of tests.
+inline std::ostream& operator<<(std::ostream& out, const HardCase& hard_case) {
+  return out << hard_case.name;
+}
 
 // Throws InputError if the head is not as above.
 HardCase load_hard_case(const std::filesystem::path& file, const std::string& name);

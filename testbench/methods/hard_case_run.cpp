@@ -36,8 +36,10 @@ std::uint64_t count_guarded(const HardCase& hard_case, const PreparedScene& scen
     return static_cast<std::uint64_t>(
         std::max<std::int64_t>(0, result.systemc.counts.frame_cycles - freely));
   }
+  const Guard& guard = *find_guard(hard_case.guard);
+  if (guard.count == nullptr) return 0;  // kRefusal, which has come this far
   const PreparedFrame frame(scene.scene, hardware.formats, hardware.setup);
-  return find_guard(hard_case.guard)->count({frame, run_model(frame.setup)});
+  return guard.count({frame, run_model(frame.setup)});
 }
 
 // Every method that does not refuse the scene draws it, with numbers as colours.

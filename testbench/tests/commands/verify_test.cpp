@@ -73,6 +73,47 @@ TEST_F(Program, VerifiesSeveralLightsAndDepthCueing) {
   }
 }
 
+TEST_F(Program, VerifyProvesAnErrorAndAccountsForEveryPixel) {
+  const nlohmann::json result =
+      verify({"torus", "--set", "setup_engine.max_error=1", "--set", "scene.image.width=128",
+              "--set", "scene.image.height=128", "--budget", "1000"});
+  expect_agreement(result);
+  std::uint64_t pixels = 0, cycles = 0;
+  for (const char* path :
+       {"taylor", "six_point", "weighted", "focused", "subdivided", "exact_path", "refused"}) {
+    pixels += result["ledger"][path].get<std::uint64_t>();
+    cycles += result["ledger_cycles"][path].get<std::uint64_t>();
+  }
+  EXPECT_EQ(pixels, result["pixels"]);
+  EXPECT_GT(cycles, result["cycles"]["setup"]);
+  EXPECT_GT(result["ledger"]["exact_path"], 0);
+  EXPECT_LE(result["max_error_lsb"], result["certified_error_lsb"]);
+  EXPECT_LE(result["certified_error_lsb"], 1);
+  const ProcessOutput told = run({"verify", "torus", "--set", "max_error=1"});
+  EXPECT_NE(told.text.find("LSB proved for every pixel"), std::string::npos) << told.text;
+  expect_refused({"verify", "torus", "--set", "max_error=0.3"}, "the least that can be had");
+  // Without it nothing is proved, and all pixels are of the one fit.
+  const nlohmann::json plain = verify({"sphere"});
+  EXPECT_TRUE(plain["certified_error_lsb"].is_null());
+  EXPECT_EQ(plain["ledger"]["weighted"], plain["pixels"]);
+}
+
+TEST_F(Program, VerifiesHardCases) {
+  const ProcessOutput output = run({"verify", "--hard-cases", "table", "--out", folder_.string(),
+                                    "--json", file("hard.json"), "--verbose"});
+  EXPECT_EQ(output.status, 0) << output.text;
+  EXPECT_NE(output.text.find("top_of_table"), std::string::npos) << output.text;
+  for (const nlohmann::json& hard_case : json("hard.json")) {
+    EXPECT_TRUE(hard_case["passed"]) << hard_case;
+    EXPECT_GT(hard_case["guarded"], 0) << hard_case;
+  }
+  EXPECT_GT(std::filesystem::file_size(file("hard-cases.png")), 100U);
+  EXPECT_TRUE(std::filesystem::exists(file("hard-cases.html")));
+  expect_refused({"verify"}, "give scenes, or --hard-cases");
+  expect_refused({"verify", "--hard-cases", "nowhere"}, "nowhere: no hard case");
+  expect_refused({"verify", "--hard-cases", "--set", "anchor=span"}, "its scene and settings");
+}
+
 TEST_F(Program, VerifyChecksTheErrorOfEveryPixel) {
   const ProcessOutput failed =
       run({"verify", "teapot", "--max-error", "0.7", "--json", file("r.json")});
