@@ -69,14 +69,22 @@ Mesh read_mesh(const TomlTable& table) {
   }
   const std::size_t materials = std::max<std::size_t>(mesh.materials.size(), 1);
   for (const std::vector<double>& f : table.rows("faces", 4, {0, 1e9})) {
+    if (std::any_of(f.begin(), f.end(), [](double index) { return index != std::floor(index); })) {
+      table.fail("faces", fmt::format("face {}: [{:g}, {:g}, {:g}, {:g}], must be whole numbers",
+                                      mesh.faces.size(), f[0], f[1], f[2], f[3]));
+    }
     MeshFace face;
     for (std::size_t i = 0; i < 3; ++i) face.vertices[i] = static_cast<std::uint32_t>(f[i]);
     face.material = static_cast<std::uint32_t>(f[3]);
     const bool known = std::all_of(face.vertices.begin(), face.vertices.end(),
                                    [&](auto vertex) { return vertex < mesh.positions.size(); });
     if (!known || face.material >= materials) {
-      table.fail("faces", fmt::format("face {} names a vertex or a material that is not there",
-                                      mesh.faces.size()));
+      table.fail(
+          "faces",
+          fmt::format("face {}: [{:g}, {:g}, {:g}, {:g}] names a vertex or a material that "
+                      "is not there: vertices go from 0 to {}, materials from 0 to {}",
+                      mesh.faces.size(), f[0], f[1], f[2], f[3],
+                      static_cast<std::ptrdiff_t>(mesh.positions.size()) - 1, materials - 1));
     }
     mesh.faces.push_back(face);
   }
@@ -139,8 +147,9 @@ Object ObjectReader::read(const TomlTable& table) {
   }
   if (table.has("vertices")) object.mesh = std::make_shared<const Mesh>(read_mesh(table));
   if (table.has("triangle_rows")) {
-    object.screen_triangles = std::make_shared<const std::vector<ScreenTriangle>>(
-        parse_triangle_csv(table.text("triangle_rows"), table.file(), image_));
+    object.screen_triangles =
+        std::make_shared<const std::vector<ScreenTriangle>>(parse_triangle_csv(
+            table.text("triangle_rows"), table.file(), image_, table.line("triangle_rows")));
   }
   if (in_file) {
     file = existing_file(table, table.has("mesh") ? "mesh" : "triangles");

@@ -24,14 +24,15 @@ std::string column_name(std::size_t column) {
 
 class CsvReader {
  public:
-  CsvReader(const std::filesystem::path& file, const Image& image) : file_(file), image_(image) {}
+  CsvReader(const std::filesystem::path& file, const Image& image, unsigned line_before)
+      : file_(file), image_(image), line_before_(line_before) {}
 
   std::vector<ScreenTriangle> run(const std::string& text) {
     LineReader reader(text);
     std::vector<ScreenTriangle> triangles;
     bool header_seen = false;
     for (std::string_view line; reader.next(line);) {
-      line_ = reader.number();
+      line_ = line_before_ + reader.number();
       if (trimmed(line).empty()) {
         continue;
       }
@@ -117,7 +118,7 @@ class CsvReader {
 
   const std::filesystem::path& file_;
   const Image& image_;
-  unsigned line_ = 0;
+  unsigned line_before_, line_ = 0;
 };
 
 void append_vector(std::string& row, const Vec3& v) {
@@ -161,8 +162,8 @@ std::vector<ScreenTriangle> read_triangle_csv(const std::filesystem::path& file,
 
 std::vector<ScreenTriangle> parse_triangle_csv(const std::string& text,
                                                const std::filesystem::path& file,
-                                               const Image& image) {
-  return CsvReader(file, image).run(text);
+                                               const Image& image, unsigned line_before) {
+  return CsvReader(file, image, line_before).run(text);
 }
 
 std::string triangles_csv(const Scene& scene, const Geometry& geometry) {

@@ -16,10 +16,11 @@ namespace phongpipe {
 std::vector<ScreenTriangle> read_triangle_csv(const std::filesystem::path& file,
                                               const Image& image);
 
-// The same of a text; `file` is what messages call it.
+// The same of a text; `file` is what messages call it, and `line_before` the line of the file above
+// the first of the text.
 std::vector<ScreenTriangle> parse_triangle_csv(const std::string& text,
                                                const std::filesystem::path& file,
-                                               const Image& image);
+                                               const Image& image, unsigned line_before = 0);
 
 // The columns above, then ex0,…,ez2 (surface to eye), l0x0,… for each light (surface to light), and
 // material, its name. Numbers are printed so that reading them back gives the same doubles.

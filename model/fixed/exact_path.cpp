@@ -191,8 +191,10 @@ std::vector<ExactLight<double>> exact_lights(const FrameSetup& frame, const Mate
     const MaterialSetup& setup = frame.material(pass, index);
     ExactLight<double> light;
     light.form = setup.plan.form;
-    const Color specular = kOutputMax * material.specular * source.color;
-    const Color diffuse = kOutputMax * material.diffuse * source.color;
+    // What does not change with distance belongs to the colour.
+    const double constant = is_attenuated(source) ? 1 : distance_attenuation(source, 0);
+    const Color specular = kOutputMax * constant * material.specular * source.color;
+    const Color diffuse = kOutputMax * constant * material.diffuse * source.color;
     light.form.wanted.highlight = (specular > 0).any();
     light.form.local_viewer =
         light.form.wanted.highlight && frame.scene->shading.viewer == Viewer::local;

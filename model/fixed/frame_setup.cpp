@@ -46,12 +46,19 @@ void require_shininess(const Scene& scene, const Geometry& geometry,
     const double n = material.shininess;
     if (n == 0 || (n >= kLeastShininess && n <= kMostShininess)) continue;
     if ((material.specular == 0).all()) continue;
-    throw InputError(
-        scene.source, 0,
-        fmt::format("material {}: shininess = {:g}: an octave table errs by {:.2g} of full scale "
-                    "there; use a shininess of 0 or from {:g} to {:g}, or rom_layout = plain",
-                    material.name, n, ExponentRom::largest_error(configuration, n), kLeastShininess,
-                    kMostShininess));
+    const double error_lsb = kOutputMax * ExponentRom::largest_error(configuration, n);
+    const std::string why =
+        n < kLeastShininess
+            ? fmt::format("an octave table errs by {:.2g} LSB there", error_lsb)
+            : fmt::format(
+                  "such a highlight is too narrow for the specular series, though the "
+                  "table would err by {:.2g} LSB only",
+                  error_lsb);
+    throw InputError(scene.source, 0,
+                     fmt::format("material {}: shininess = {:g}: {}; use a shininess of 0 or from "
+                                 "{:g} to {:g}{}",
+                                 material.name, n, why, kLeastShininess, kMostShininess,
+                                 n < kLeastShininess ? ", or rom_layout = plain" : ""));
   }
 }
 

@@ -1,5 +1,7 @@
 #include "model/fixed/framebuffer.h"
 
+#include <cmath>
+#include <limits>
 #include <new>
 
 #if defined(__linux__)
@@ -39,9 +41,33 @@ T* zeros(std::size_t count) {
 
 Framebuffer::Framebuffer(const FrameSetup& frame, Owners owners)
     : width_(frame.width), height_(frame.height), background_(background_color(frame)) {
-  cells_.reset(zeros<Cell>(size()));
+  bound(*frame.geometry);
+  const auto cells =
+      static_cast<std::size_t>(right_ - left_) * static_cast<std::size_t>(bottom_ - top_);
+  cells_.reset(zeros<Cell>(cells));
   if (owners == Owners::where_needed && !(frame.depth_test && frame.passes > 1)) return;
-  owners_.reset(zeros<std::uint32_t>(size()));
+  owners_.reset(zeros<std::uint32_t>(cells));
+}
+
+void Framebuffer::bound(const Geometry& geometry) {
+  if (geometry.triangles.empty()) return;
+  std::int32_t left = std::numeric_limits<std::int32_t>::max(), top = left;
+  std::int32_t right = std::numeric_limits<std::int32_t>::min(), bottom = right;
+  for (const ScreenTriangle& triangle : geometry.triangles) {
+    for (const ScreenVertex& vertex : triangle.vertices) {
+      left = std::min(left, vertex.x);
+      right = std::max(right, vertex.x);
+      top = std::min(top, vertex.y);
+      bottom = std::max(bottom, vertex.y);
+    }
+  }
+  const auto pixel = [](std::int32_t subpixels) {
+    return static_cast<int>(std::floor(in_pixels(subpixels)));
+  };
+  left_ = std::clamp(pixel(left), 0, width_);
+  right_ = std::clamp(pixel(right) + 1, left_, width_);
+  top_ = std::clamp(pixel(top), 0, height_);
+  bottom_ = std::clamp(pixel(bottom) + 1, top_, height_);
 }
 
 }  // namespace phongpipe

@@ -27,26 +27,30 @@ class Framebuffer {
     return static_cast<std::uint32_t>(std::clamp<std::int64_t>(depth, 0, farthest));
   }
 
-  // Writes or adds pixel (x, y), inside the image, of a span of `triangle`. False if it is hidden.
+  // Whether pixel (x, y) has a cell: some triangle's bounding box reaches to it.
+  bool contains(int x, int y) const { return x >= left_ && x < right_ && y >= top_ && y < bottom_; }
+
+  // Writes or adds pixel (x, y), which must have a cell, of a span of `triangle`. False if it is
+  // hidden.
   bool write(int x, int y, std::uint32_t depth, std::uint32_t triangle, std::uint32_t color) {
-    const std::size_t index = index_of(x, y);
-    Cell& cell = cells_[index];
+    const std::size_t cell_index = cell_of(x, y);
+    Cell& cell = cells_[cell_index];
     const std::uint32_t nearness = ~depth;
     if (nearness <= cell.nearness) return false;
     cell = {nearness, color};
-    if (owners_) owners_[index] = triangle + 1;
+    if (owners_) owners_[cell_index] = triangle + 1;
     return true;
   }
   bool add(int x, int y, std::uint32_t triangle, std::uint32_t color) {
-    const std::size_t index = index_of(x, y);
-    if (owners_ && owners_[index] != triangle + 1) return false;
-    cells_[index].color = add_saturated(cells_[index].color, color);
+    const std::size_t cell_index = cell_of(x, y);
+    if (owners_ && owners_[cell_index] != triangle + 1) return false;
+    cells_[cell_index].color = add_saturated(cells_[cell_index].color, color);
     return true;
   }
 
   // Prefetches the pixels of a row into the cache.
   void prefetch(const RowSpan& row) const {
-    const Cell* const first = &cells_[index_of(row.x, row.y)];
+    const Cell* const first = &cells_[cell_of(row.x, row.y)];
     __builtin_prefetch(first);
     __builtin_prefetch(first + row.length - 1);
   }
@@ -75,28 +79,41 @@ class Framebuffer {
   std::size_t size() const {
     return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
   }
-  // visit(index, color) for each covered pixel.
+  // visit(index, color) for each covered pixel, in the order of indices.
   template <typename Visit>
   void for_each_covered(Visit visit) const {
-    for (std::size_t i = 0; i < size(); ++i) {
-      if (covered(i)) visit(i, cells_[i].color);
+    for (int y = top_; y < bottom_; ++y) {
+      const Cell* cell = &cells_[cell_of(left_, y)];
+      std::size_t index = index_of(left_, y);
+      for (int x = left_; x < right_; ++x, ++cell, ++index) {
+        if (cell->nearness != 0) visit(index, cell->color);
+      }
     }
   }
-  bool covered(std::size_t index) const { return cells_[index].nearness != 0; }
+  bool covered(std::size_t index) const {
+    const Cell* const cell = find(index);
+    return cell != nullptr && cell->nearness != 0;
+  }
   // Whether the triangle is the owner of the pixel. Owners must be kept.
+  bool owned(int x, int y, std::uint32_t triangle) const {
+    return contains(x, y) && owners_[cell_of(x, y)] == triangle + 1;
+  }
   bool owned(std::size_t index, std::uint32_t triangle) const {
-    return owners_[index] == triangle + 1;
+    return owned(x_of(index), y_of(index), triangle);
   }
   // The owner of a covered pixel. Owners must be kept.
-  std::uint32_t owner(std::size_t index) const { return owners_[index] - 1; }
+  std::uint32_t owner(int x, int y) const { return owners_[cell_of(x, y)] - 1; }
+  std::uint32_t owner(std::size_t index) const { return owner(x_of(index), y_of(index)); }
   // Channel 0 in the low byte; the background if the pixel is not covered.
   std::uint32_t color(std::size_t index) const {
-    return covered(index) ? cells_[index].color : background_;
+    const Cell* const cell = find(index);
+    return cell != nullptr && cell->nearness != 0 ? cell->color : background_;
   }
+  std::uint32_t background() const { return background_; }
 
  private:
-  // All zero where nothing was written: calloc does that without touching the memory, most of which
-  // a frame may never use. Depths have at most 30 bits, so ~depth is never 0.
+  // All zero where nothing was written. Depths have at most 30 bits, so ~depth is never 0. Only the
+  // bounding box of all triangles has cells: zeroing memory costs as much as shading does.
   struct Cell {
     std::uint32_t nearness;
     std::uint32_t color;
@@ -107,6 +124,7 @@ class Framebuffer {
   template <typename T>
   using Zeroed = std::unique_ptr<T[], Free>;
 
+  void bound(const Geometry& geometry);
   static std::uint32_t add_saturated(std::uint32_t a, std::uint32_t b) {
     std::uint32_t sum = 0;
     for (int shift = 0; shift < 3 * kOutputBits; shift += kOutputBits) {
@@ -116,7 +134,23 @@ class Framebuffer {
     return sum;
   }
 
+  int x_of(std::size_t index) const {
+    return static_cast<int>(index % static_cast<std::size_t>(width_));
+  }
+  int y_of(std::size_t index) const {
+    return static_cast<int>(index / static_cast<std::size_t>(width_));
+  }
+  std::size_t cell_of(int x, int y) const {
+    return static_cast<std::size_t>(y - top_) * static_cast<std::size_t>(right_ - left_) +
+           static_cast<std::size_t>(x - left_);
+  }
+  const Cell* find(std::size_t index) const {
+    const int x = x_of(index), y = y_of(index);
+    return contains(x, y) ? &cells_[cell_of(x, y)] : nullptr;
+  }
+
   int width_, height_;
+  int left_ = 0, top_ = 0, right_ = 0, bottom_ = 0;  // of the cells, in pixels; ends not included
   std::uint32_t background_;
   Zeroed<Cell> cells_;
   Zeroed<std::uint32_t> owners_;  // triangle + 1; null where not kept

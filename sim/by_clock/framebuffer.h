@@ -38,8 +38,7 @@ class Framebuffer : public sc_core::sc_module {
     const DepthPixel& pixel = pixels_.front();
     triangle_ = pixel.triangle;
     // A wrong coordinate must not write outside the image; the comparison of streams reports it.
-    const bool inside =
-        pixel.pixel.x < context_.frame.width && pixel.pixel.y < context_.frame.height;
+    const bool inside = memory_.contains(pixel.pixel.x, pixel.pixel.y);
     busy_ = context_.framebuffer_cycles(pixel.first_pass, inside && take(pixel), stream_index_++);
     context_.result.frame_cycles = cycle + busy_;
     pixels_.pop();

@@ -56,7 +56,7 @@ void ClockedPixelDatapath::deliver(const ShadedPixel& pixel, Cycle cycle) {
   context_.record(pixel, cycle);
   if (in_flight_.empty()) return;  // a pixel nobody asked for; the comparison will tell
   // A wrong place must not write outside the image; the comparison will tell that, too.
-  const bool inside = pixel.x < context_.frame.width && pixel.y < context_.frame.height;
+  const bool inside = framebuffer_.contains(pixel.x, pixel.y);
   const Cycle cost = inside ? framebuffer_.take(in_flight_.front(), delivered_, pixel) : 1;
   timing_.read(cycle, cost);
   if (++delivered_ == in_flight_.front().row.length) {

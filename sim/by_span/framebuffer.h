@@ -25,6 +25,7 @@ class Framebuffer : public sc_core::sc_module {
     }
   }
 
+  bool contains(int x, int y) const { return memory_.contains(x, y); }
   void prefetch(const Span& span) const { memory_.prefetch(span.row); }
 
   phongpipe::Framebuffer take_memory() {

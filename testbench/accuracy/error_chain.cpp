@@ -180,8 +180,8 @@ class TriangleChain {
     const auto before = [](const RowSpan& a, const RowSpan& b) {
       return a.y != b.y ? a.y < b.y : a.x < b.x;
     };
-    first_exact_ = std::lower_bound(exact_rows_.begin(), exact_rows_.end(), row, before) -
-                   exact_rows_.begin();
+    first_exact_ =
+        std::lower_bound(exact_rows_.begin(), exact_rows_.end(), row, before) - exact_rows_.begin();
     for (PassChain& pass : passes_) pass.start_row(row.y);
     exact_.resize(std::max(exact_.size(), static_cast<std::size_t>(row.length)));
     phong_.shade(row.x, row.y, row.length, exact_.data());
@@ -295,7 +295,7 @@ void for_each_visible_pixel(const FrameSetup& frame, const ModelFrame& model,
       links.index = static_cast<std::size_t>(row.y) * static_cast<std::size_t>(frame.width) +
                     static_cast<std::size_t>(row.x);
       for (int i = 0; i < row.length; ++i, ++links.index) {
-        if (!model.framebuffer.owned(links.index, triangle)) continue;  // hidden
+        if (!model.framebuffer.owned(row.x + i, row.y, triangle)) continue;  // hidden
         chain.at(i, links);
         if (const std::uint32_t* nearest = nearest_at(misplaced, links.index)) {
           links.exact = exact_color(*frame.scene, *frame.geometry, *nearest, row.x + i, row.y);

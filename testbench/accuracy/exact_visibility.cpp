@@ -45,7 +45,7 @@ class VisibilityCheck {
     for (const RowSpan& row : rows) {
       for (int x = row.x; x < row.x + row.length; ++x) {
         const std::size_t index = framebuffer_.index_of(x, row.y);
-        const std::uint32_t shown = framebuffer_.owner(index);
+        const std::uint32_t shown = framebuffer_.owner(x, row.y);
         if (shown == triangle || ranges_[triangle].nearest > ranges_[shown].farthest) continue;
         const BoundedDepth here = depth.at(x, row.y);
         const BoundedDepth there = ExactDepth(frame_.geometry->triangles[shown]).at(x, row.y);

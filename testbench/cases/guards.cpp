@@ -291,8 +291,6 @@ std::vector<Guard> all_guards() {
        [](Of g) { return Count{g.prepared.geometry().culled_back_facing}; }},
       {"overflow", "values that do not fit their registers are told, and the run fails",
        "triangles", [](Of g) { return Count{g.model.triangles.overflows}; }},
-      {"notes", "choices that were made for the user are told", "messages",
-       [](Of g) { return Count{g.prepared.geometry().notes.size()}; }},
       {kRefusal, "input that has no picture is refused by name", "messages", nullptr},
       {kSettings, "settings without which pixels err by more", "pixels", nullptr},
       {kStalls, "back-pressure costs time and no pixel", "cycles", nullptr},

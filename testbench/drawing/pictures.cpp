@@ -35,16 +35,16 @@ Picture::Picture(int width_, int height_, int channels_, const std::uint8_t* col
 }
 
 Picture picture_of(const Framebuffer& framebuffer, int width, int height, int channels) {
-  Picture picture;
-  picture.width = width;
-  picture.height = height;
-  picture.channels = channels;
-  picture.bytes.resize(framebuffer.size() * static_cast<std::size_t>(channels));
-  std::uint8_t* byte = picture.bytes.data();
-  for (std::size_t i = 0; i < framebuffer.size(); ++i) {
-    const std::uint32_t color = framebuffer.color(i);
-    for (int c = 0; c < channels; ++c) *byte++ = static_cast<std::uint8_t>(color >> (8 * c));
-  }
+  const auto bytes_of = [](std::uint32_t color) {
+    return std::array<std::uint8_t, 3>{static_cast<std::uint8_t>(color),
+                                       static_cast<std::uint8_t>(color >> 8),
+                                       static_cast<std::uint8_t>(color >> 16)};
+  };
+  Picture picture(width, height, channels, bytes_of(framebuffer.background()).data());
+  framebuffer.for_each_covered([&](std::size_t index, std::uint32_t color) {
+    const auto bytes = bytes_of(color);
+    std::copy(bytes.data(), bytes.data() + channels, picture.pixel(index));
+  });
   return picture;
 }
 

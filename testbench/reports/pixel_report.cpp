@@ -188,8 +188,9 @@ class TextReport {
                                  printable(m.name), list(numbers(m.ambient)),
                                  list(numbers(m.diffuse)), list(numbers(m.specular)), m.shininess));
     if (story_.certificate) {
-      line("proved", fmt::format("an error of at most {:.3f} LSB, {}", story_.certificate->error_lsb,
-                                 story_.certificate->exact ? "by exact_path" : "by quadratics"));
+      line("proved",
+           fmt::format("an error of at most {:.3f} LSB, {}", story_.certificate->error_lsb,
+                       story_.certificate->exact ? "by exact_path" : "by quadratics"));
     }
     line("effects", list(story_.effects.used));
     line("not built", list(story_.effects.left_out));

@@ -225,13 +225,15 @@ void report_ledger(Page& page, const VerificationResult& r) {
     const auto path = static_cast<ShadingPath>(i);
     const std::uint64_t pixels = r.ledger[path], cycles = r.unit_cycles(path);
     if (pixels == 0 && cycles == 0) continue;
-    page.line("", fmt::format("{:<11} {:>11} pixels {:5.1f} %, {:>11} cycles of units, {:.2f} ns a "
-                              "pixel",
-                              kShadingPathNames[i], grouped(pixels),
-                              100 * static_cast<double>(pixels) / static_cast<double>(r.pixels),
-                              grouped(cycles),
-                              r.clock_ns * static_cast<double>(cycles) /
-                                  static_cast<double>(std::max<std::uint64_t>(pixels, 1))));
+    std::string line = fmt::format(
+        "{:<11} {:>11} pixels {:5.1f} %, {:>11} cycles of units", kShadingPathNames[i],
+        grouped(pixels), 100 * static_cast<double>(pixels) / static_cast<double>(r.pixels),
+        grouped(cycles));
+    if (pixels > 0 && cycles > 0) {
+      line += fmt::format(", {:.2f} ns a pixel",
+                          r.clock_ns * static_cast<double>(cycles) / static_cast<double>(pixels));
+    }
+    page.line("", line);
   }
 }
 

@@ -24,8 +24,8 @@ const Installation& installation() {
                       shared.string()));
     }
     return Installation{
-        shared / "hw",     shared / "rtl",  shared / "include",          shared / "scenes",
-        shared / "sweeps", shared / "hard_cases", shared / "page", prefix / "lib" / "phongpipe"};
+        shared / "hw",     shared / "rtl",        shared / "include", shared / "scenes",
+        shared / "sweeps", shared / "hard_cases", shared / "page",    prefix / "lib" / "phongpipe"};
   }();
   return found;
 }

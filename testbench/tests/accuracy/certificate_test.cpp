@@ -36,6 +36,7 @@ Scene hostile_scene(Random& random, bool plain) {
   if (light.type != LightType::directional) {
     light.position = one_of(random, {0.05, 1.0, 20.0}) * random.unit_near(Vec3(0, 0, 1), 60);
     if (random.integer(0, 1) == 0) light.attenuation = {1, 0.2, random.uniform(0, 3)};
+    if (random.integer(0, 4) == 0) light.attenuation = {random.uniform(1, 3), 0, 0};
     if (light.type == LightType::spot) {
       light.spot_exponent = one_of(random, {0.0, 1.0, 30.0});
       light.spot_cutoff_degrees = random.uniform(10, 80);

@@ -15,7 +15,7 @@ TEST_F(Program, BadUsageIsOneLineAndTwo) {
   expect_refused({}, "which command? There are verify, render, compare");
   expect_refused({"frob"}, "frob: no such command; there are verify, render, compare");
   expect_refused({"verfy", "sphere"}, "did you mean verify?");
-  expect_refused({"verify"}, "scenes is required");
+  expect_refused({"verify"}, "give scenes, or --hard-cases");
   expect_refused({"verify", "nosuch.toml"},
                  "nosuch.toml: no such file or scene; there are the scenes mesh, pawn,");
   expect_refused({"verify", "sphere", "--hardware", "nosuch"}, "paper-1k, paper-8k");

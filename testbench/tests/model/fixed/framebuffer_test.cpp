@@ -5,11 +5,25 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <vector>
 
 #include "testbench/cases/random_frame.h"
 
 namespace phongpipe {
 namespace {
+
+// One triangle, which reaches to every pixel.
+const Geometry& whole_image() {
+  static const Geometry geometry = [] {
+    Geometry result;
+    result.materials = {grey_material(0.6, 0.3, 20)};
+    ScreenTriangle triangle;
+    triangle.vertices[1].x = triangle.vertices[2].y = snap(8);
+    result.triangles = {triangle};
+    return result;
+  }();
+  return geometry;
+}
 
 FrameSetup small_frame(int channels = 3, int depth_bits = 8, std::size_t lights = 1,
                        Effects effects = Effects::derived) {
@@ -19,7 +33,36 @@ FrameSetup small_frame(int channels = 3, int depth_bits = 8, std::size_t lights 
   FrameConfiguration configuration;
   configuration.channels = channels;
   configuration.depth_bits = depth_bits;
-  return FrameSetup(scene, Geometry(), configuration, effects);
+  return FrameSetup(scene, whole_image(), configuration, effects);
+}
+
+// The image has 4 × 3 pixels, of which a triangle reaches to 2 × 2.
+TEST(Framebuffer, HasCellsWhereTrianglesReachAndBackgroundElsewhere) {
+  Scene scene = lit_scene(4, 3);
+  scene.image.background = Color(0.2, 0.5, 1);
+  Geometry geometry = whole_image();
+  std::array<ScreenVertex, 3>& v = geometry.triangles.front().vertices;
+  v[0].x = v[1].x = snap(1.5);
+  v[2].x = snap(2.25);
+  v[0].y = v[2].y = snap(1.0);
+  v[1].y = snap(9.0);
+  Framebuffer framebuffer(FrameSetup(scene, geometry, FrameConfiguration()),
+                          Framebuffer::Owners::kept);
+  for (int y = 0; y < 3; ++y) {
+    for (int x = 0; x < 4; ++x) {
+      const bool reached = x >= 1 && x <= 2 && y >= 1;
+      EXPECT_EQ(framebuffer.contains(x, y), reached) << x << ", " << y;
+      EXPECT_FALSE(framebuffer.covered(framebuffer.index_of(x, y)));
+      EXPECT_FALSE(framebuffer.owned(framebuffer.index_of(x, y), 0));
+    }
+  }
+  EXPECT_TRUE(framebuffer.write(2, 1, 5, 0, 7));
+  EXPECT_TRUE(framebuffer.write(1, 2, 5, 0, 8));
+  std::vector<std::size_t> covered;
+  framebuffer.for_each_covered([&](std::size_t index, std::uint32_t) { covered.push_back(index); });
+  EXPECT_EQ(covered, (std::vector<std::size_t>{1 * 4 + 2, 2 * 4 + 1}));
+  EXPECT_EQ(framebuffer.color(1 * 4 + 2), 7U);
+  EXPECT_EQ(framebuffer.owner(1 * 4 + 2), 0U);
 }
 
 TEST(Framebuffer, StartsAsBackground) {
