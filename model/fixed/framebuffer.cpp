@@ -19,22 +19,20 @@ std::uint32_t background_color(const FrameSetup& frame) {
   return color;
 }
 
-// Zeros, in large pages where the system has them: the first touch of a page takes about as long as
-// 1000 pixels do.
-template <typename T>
-T* zeros(std::size_t count) {
-  void* memory = std::calloc(count, sizeof(T));
-  if (memory == nullptr) throw std::bad_alloc();
+// Zeros. Memory fresh from the system is zero without being touched; what the allocator gives a
+// second time is not. In large pages where the system has them: the first touch of a page takes
+// about as long as 1000 pixels do.
+void* zeros(std::size_t bytes) {
 #if defined(__linux__)
-  constexpr std::uintptr_t kPage = 4096;
-  const auto first = reinterpret_cast<std::uintptr_t>(memory);
-  const std::uintptr_t begin = (first + kPage - 1) & ~(kPage - 1);
-  const std::uintptr_t end = (first + count * sizeof(T)) & ~(kPage - 1);
-  if (begin < end) {
-    madvise(static_cast<char*>(memory) + (begin - first), end - begin, MADV_HUGEPAGE);
-  }
+  void* const memory =
+      mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (memory == MAP_FAILED) throw std::bad_alloc();
+  madvise(memory, bytes, MADV_HUGEPAGE);
+#else
+  void* const memory = std::calloc(bytes, 1);
+  if (memory == nullptr) throw std::bad_alloc();
 #endif
-  return static_cast<T*>(memory);
+  return memory;
 }
 
 }  // namespace
@@ -44,9 +42,22 @@ Framebuffer::Framebuffer(const FrameSetup& frame, Owners owners)
   bound(*frame.geometry);
   const auto cells =
       static_cast<std::size_t>(right_ - left_) * static_cast<std::size_t>(bottom_ - top_);
-  cells_.reset(zeros<Cell>(cells));
+  const auto make = [cells](auto& memory) {
+    using T = std::remove_reference_t<decltype(memory[0])>;
+    const std::size_t bytes = std::max<std::size_t>(cells, 1) * sizeof(T);
+    memory = Zeroed<T>(static_cast<T*>(zeros(bytes)), Free{bytes});
+  };
+  make(cells_);
   if (owners == Owners::where_needed && !(frame.depth_test && frame.passes > 1)) return;
-  owners_.reset(zeros<std::uint32_t>(cells));
+  make(owners_);
+}
+
+void Framebuffer::Free::operator()(void* memory) const {
+#if defined(__linux__)
+  munmap(memory, bytes);
+#else
+  std::free(memory);
+#endif
 }
 
 void Framebuffer::bound(const Geometry& geometry) {

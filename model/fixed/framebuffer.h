@@ -119,7 +119,8 @@ class Framebuffer {
     std::uint32_t color;
   };
   struct Free {
-    void operator()(void* memory) const { std::free(memory); }
+    std::size_t bytes;
+    void operator()(void* memory) const;
   };
   template <typename T>
   using Zeroed = std::unique_ptr<T[], Free>;
