@@ -55,7 +55,7 @@ void write_pages(const HardCaseOptions& options, const std::vector<HardCaseResul
     std::string name = result.hard_case.name;
     std::replace(name.begin(), name.end(), '/', '-');
     const auto files = picture_files(options.out, name);
-    write_pictures(*result.verification, files);
+    WrittenPictures(*result.verification, files).wait();
     page.add(request, *result.verification, files);
   }
   write_text(page_file(options), page.text());

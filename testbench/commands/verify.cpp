@@ -76,8 +76,14 @@ class Verifier {
     };
     try {
       const auto prepared = std::make_shared<const PreparedScene>(scene);
+      std::optional<WrittenPictures> pictures;
+      const auto write_pictures = [&](const VerificationResult& result) {
+        std::filesystem::create_directories(options_.pictures);
+        pictures.emplace(result, picture_files(options_.pictures, name));
+      };
       const VerificationResult result =
-          verify(prepared, hardware_, options_.verification, show_step);
+          verify(prepared, hardware_, options_.verification, show_step, write_pictures);
+      if (pictures) pictures->wait();
       if (!options_.timeline.empty()) {
         show_step("recording the timeline");
         write_timeline(record_timeline(prepared, hardware_, options_.verification), scene.source);
@@ -135,8 +141,6 @@ class Verifier {
     }
     if (!options_.pictures.empty()) {
       const auto files = picture_files(options_.pictures, name);
-      std::filesystem::create_directories(options_.pictures);
-      write_pictures(result, files);
       style.more.push_back(printable(files.back().string()));
       if (options_.scenes.size() == 1) style.more.push_back(printable(page_file().string()));
     }

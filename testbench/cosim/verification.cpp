@@ -236,7 +236,7 @@ bool VerificationResult::passed() const {
 
 VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
                           const Hardware& hardware, const VerificationOptions& options,
-                          const ShowProgress& progress) {
+                          const ShowProgress& progress, const TakePictures& take_pictures) {
   const auto show = [&progress](const std::string& what) {
     if (progress) progress(what);
   };
@@ -301,6 +301,7 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   if (options.pictures) {
     result.result_picture = picture_of(model.frame.framebuffer, result.width, result.height,
                                        frame.setup.configuration.channels);
+    if (take_pictures) take_pictures(result);
   }
   const auto finish = [&](Implementation& implementation) {
     ImplementationResult found = implementation.result();

@@ -124,11 +124,15 @@ struct VerificationResult {
 // Called with a description of the current step.
 using ShowProgress = std::function<void(const std::string&)>;
 
+// Called once the result has its pictures, while SystemC and RTL may still be simulated.
+using TakePictures = std::function<void(const VerificationResult&)>;
+
 // Throws InputError if no pixel is visible, or if the technology has no clock for the
 // configuration.
 VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
                           const Hardware& hardware, const VerificationOptions& options,
-                          const ShowProgress& progress = {});
+                          const ShowProgress& progress = {},
+                          const TakePictures& take_pictures = {});
 inline VerificationResult verify(const Scene& scene, const Hardware& hardware,
                                  const VerificationOptions& options,
                                  const ShowProgress& progress = {}) {

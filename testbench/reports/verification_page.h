@@ -13,7 +13,7 @@ namespace phongpipe {
 
 class VerificationPage {
  public:
-  // A result, and the files of write_pictures(), which belong into the page's folder.
+  // A result, and the files of WrittenPictures, which belong into the page's folder.
   void add(const RunRequest& request, const VerificationResult& result,
            const std::array<std::filesystem::path, 3>& pictures);
   // One more picture of the last result, a file in the page's folder.

@@ -472,15 +472,21 @@ std::array<std::filesystem::path, 3> picture_files(const std::filesystem::path& 
           folder / (name + "-error.png")};
 }
 
-void write_pictures(const VerificationResult& r,
-                    const std::array<std::filesystem::path, 3>& files) {
-  Child beside([&] {
-    write_png(files[0], r.result_picture);
-    write_png(files[1], r.accuracy.exact_picture);
-    return std::string("written");
-  });
-  write_png(files[2], r.accuracy.error_picture);
-  beside.get();
+WrittenPictures::WrittenPictures(const VerificationResult& r,
+                                 const std::array<std::filesystem::path, 3>& files)
+    : colors_([&] {
+        write_png(files[0], r.result_picture);
+        write_png(files[1], r.accuracy.exact_picture);
+        return std::string("written");
+      }),
+      errors_([&] {
+        write_png(files[2], r.accuracy.error_picture);
+        return std::string("written");
+      }) {}
+
+void WrittenPictures::wait() {
+  colors_.get();
+  errors_.get();
 }
 
 }  // namespace phongpipe

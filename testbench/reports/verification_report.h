@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "testbench/cosim/verification.h"
+#include "testbench/system/process.h"
 
 namespace phongpipe {
 
@@ -31,7 +32,15 @@ nlohmann::ordered_json report_json(const VerificationResult& result,
 // name-result.png, name-exact.png and name-error.png.
 std::array<std::filesystem::path, 3> picture_files(const std::filesystem::path& folder,
                                                    const std::string& name);
-void write_pictures(const VerificationResult& result,
-                    const std::array<std::filesystem::path, 3>& files);
+// Writes the pictures of a result, in child processes that start at once.
+class WrittenPictures {
+ public:
+  WrittenPictures(const VerificationResult& result,
+                  const std::array<std::filesystem::path, 3>& files);
+  void wait();  // call it once; throws what the children throw
+
+ private:
+  Child colors_, errors_;
+};
 
 }  // namespace phongpipe
