@@ -69,8 +69,7 @@ double change_of_pixel(const ExactLight<double>& light, const ExactPoint<double>
   const bool varies = light.form.point_light || light.form.local_viewer;
   if (varies && light.form.highlight == Highlight::halfway) {
     const double square = 2 * (1 + point.cosines.light_eye);
-    constexpr double kLeastSquare = 1e-6;  // see reflected()
-    if (square < kLeastSquare) return diffuse * doubt + specular;
+    if (square < 2 * kLeastHalfway) return diffuse * doubt + specular;
     bent = doubt * (1 + 4 / square);
   }
   // Below an exponent of 1 the power is steepest where it is least, and 0 for what is below 0.

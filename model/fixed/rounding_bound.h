@@ -2,6 +2,7 @@
 // ROM.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -34,13 +35,16 @@ inline std::optional<int> fewest_fraction_bits(const FixedPointFormats& formats,
 }
 
 // Largest difference of a ROM's words from specular · x^n, in output LSB, over x in [0, 1], for a
-// specular colour of at most 1. A word is rounded by half its unit; in the bipartite layout its
-// increment is, too.
+// specular colour of at most 1. A word is rounded by half its unit, in the bipartite layout its
+// increment is, too; and words saturate.
 inline double table_error_bound(const DatapathConfiguration& configuration, double specular,
                                 double shininess) {
   const double unit = std::ldexp(1, kOutputBits - configuration.rom_data_bits);
   const double rounding = configuration.rom_layout == RomLayout::bipartite ? unit : unit / 2;
-  return kOutputMax * specular * ExponentRom::largest_error(configuration, shininess) + rounding;
+  // What the largest word lacks to a full highlight.
+  const double missing = kOutputMax * specular - unit * ((1 << configuration.rom_data_bits) - 1);
+  return kOutputMax * specular * ExponentRom::largest_error(configuration, shininess) +
+         std::max(rounding, missing);
 }
 
 }  // namespace phongpipe

@@ -242,4 +242,8 @@ std::string metric_text(const MetricValue& value) {
   return digits;
 }
 
+std::string count_text(std::uint64_t count) {
+  return metric_text(static_cast<std::int64_t>(count));
+}
+
 }  // namespace phongpipe

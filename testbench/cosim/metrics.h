@@ -34,5 +34,6 @@ std::size_t metric_index(std::string_view name);
 std::optional<double> number_of(const MetricValue& value);
 // The value for people: whole numbers with separators, others with 4 digits, - for no value.
 std::string metric_text(const MetricValue& value);
+std::string count_text(std::uint64_t count);  // 1,234,567
 
 }  // namespace phongpipe

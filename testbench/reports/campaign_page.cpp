@@ -17,10 +17,6 @@ namespace {
 constexpr const char* kTime = "frame_ns_per_pixel";
 constexpr const char* kError = "max_lsb";
 
-std::string count_text(std::size_t count) {
-  return metric_text(static_cast<std::int64_t>(count));
-}
-
 // The hardware of a row, as its command gives it.
 class HardwareOfRows {
  public:

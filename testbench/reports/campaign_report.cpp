@@ -16,10 +16,6 @@
 namespace phongpipe {
 namespace {
 
-std::string count_text(std::uint64_t count) {
-  return metric_text(static_cast<std::int64_t>(count));
-}
-
 // ", 3 failed" for each outcome that occurred.
 std::string outcomes(const CampaignProgress& p) {
   std::string text;

@@ -43,10 +43,6 @@ class Page {
   std::string text_;
 };
 
-std::string grouped(std::uint64_t number) {
-  return metric_text(static_cast<std::int64_t>(number));
-}
-
 std::string color_text(std::uint32_t color, int channels) {
   std::string hex, lsb;
   for (int c = 0; c < channels; ++c) {
@@ -60,7 +56,7 @@ std::string color_text(std::uint32_t color, int channels) {
 std::string heading(const Page& page, const VerificationResult& r) {
   const std::string errors = r.within_error() ? r.over_limit_text() : "";  // else told as a failure
   return fmt::format("{} {}  {}×{}, {} pixels, hardware {} {}{}", page.verdict(r.passed()), r.scene,
-                     r.width, r.height, grouped(r.pixels), r.hardware.name,
+                     r.width, r.height, count_text(r.pixels), r.hardware.name,
                      configuration_hash(r.hardware).substr(0, 8),
                      errors.empty() ? "" : "; " + page.toned(Tone::warning, errors));
 }
@@ -92,11 +88,11 @@ std::pair<std::string_view, double> largest_link(const Accuracy& a) {
 void report_implementation(Page& page, const char* name, const ImplementationResult& found,
                            const VerificationResult& r) {
   if (found.agrees()) return;
-  page.line("differs",
-            page.toned(Tone::bad, fmt::format("{} ≠ model: {} of {} pixels, {} of the "
-                                              "final frame",
-                                              name, grouped(found.stream_mismatches),
-                                              grouped(r.pixels), grouped(found.frame_mismatches))));
+  page.line("differs", page.toned(Tone::bad, fmt::format("{} ≠ model: {} of {} pixels, {} of the "
+                                                         "final frame",
+                                                         name, count_text(found.stream_mismatches),
+                                                         count_text(r.pixels),
+                                                         count_text(found.frame_mismatches))));
   if (!found.counts.failure.empty()) page.line("", page.toned(Tone::bad, found.counts.failure));
   if (!found.first_divergence) return;
   const Divergence& d = *found.first_divergence;
@@ -120,7 +116,7 @@ void report_signal(Page& page, const VerificationResult& r) {
   page.line("cause", page.toned(Tone::bad,
                                 fmt::format("{}: model {}, rtl {} in cycle {}", s.name(),
                                             hex_text(s.model, s.width), hex_text(s.other, s.width),
-                                            grouped(static_cast<std::uint64_t>(s.cycle)))));
+                                            count_text(static_cast<std::uint64_t>(s.cycle)))));
 }
 
 // The pixels with the largest errors, if some error is more than --max-error allows.
@@ -150,8 +146,8 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
             Tone::bad,
             r.cycle_difference() != 0
                 ? fmt::format("the frame takes {} cycles in SystemC, {} with the RTL",
-                              grouped(static_cast<std::uint64_t>(r.systemc.counts.frame_cycles)),
-                              grouped(static_cast<std::uint64_t>(r.rtl->counts.frame_cycles)))
+                              count_text(static_cast<std::uint64_t>(r.systemc.counts.frame_cycles)),
+                              count_text(static_cast<std::uint64_t>(r.rtl->counts.frame_cycles)))
                 : std::string("pixels leave SystemC and RTL in other cycles")));
   }
   report_signal(page, r);
@@ -209,13 +205,13 @@ void report_ledger(Page& page, const VerificationResult& r) {
         fmt::format("at most {:.3f} LSB proved for every pixel", *r.certified_error_lsb);
     if (refused > 0) {
       proved = page.toned(Tone::warning,
-                          fmt::format("nothing is proved for {} pixels", grouped(refused)));
+                          fmt::format("nothing is proved for {} pixels", count_text(refused)));
     }
     if (misplaced > 0) {
       proved = page.toned(Tone::warning,
                           fmt::format("nothing is proved where {} pixels show another triangle "
                                       "than the nearest: raise framebuffer.depth_bits",
-                                      grouped(misplaced)));
+                                      count_text(misplaced)));
     }
     page.line("ledger", proved);
   } else {
@@ -227,8 +223,8 @@ void report_ledger(Page& page, const VerificationResult& r) {
     if (pixels == 0 && cycles == 0) continue;
     std::string line = fmt::format(
         "{:<11} {:>11} pixels {:5.1f} %, {:>11} cycles of units", kShadingPathNames[i],
-        grouped(pixels), 100 * static_cast<double>(pixels) / static_cast<double>(r.pixels),
-        grouped(cycles));
+        count_text(pixels), 100 * static_cast<double>(pixels) / static_cast<double>(r.pixels),
+        count_text(cycles));
     if (pixels > 0 && cycles > 0) {
       line += fmt::format(", {:.2f} ns a pixel",
                           r.clock_ns * static_cast<double>(cycles) / static_cast<double>(pixels));
@@ -372,7 +368,7 @@ std::string report_text(const VerificationResult& r, const ReportStyle& style) {
     page.line(
         "same",
         fmt::format("model = SystemC{}, every pixel and every cycle ({})", r.rtl ? " = RTL" : "",
-                    grouped(static_cast<std::uint64_t>(r.systemc.counts.frame_cycles))));
+                    count_text(static_cast<std::uint64_t>(r.systemc.counts.frame_cycles))));
   }
   page.line("time", time_text(page, r));
   page.line("error", error_text(r));

@@ -135,8 +135,10 @@ Reflected<ReflectionBound<T>> bound_general(const ReflectionForm& form,
   if (form.highlight == Highlight::halfway) {
     // |L + E|² = 2 (1 + L·E)
     const T least = bound_from_corners(between, light_eye.second, T(0)).low;
-    const T inverse = rsqrt(maximum(twice(T(1) + least), T(kTiny)));
-    f_highlight = n * direction(l + e, inverse);
+    const T square = twice(T(1) + least);
+    f_highlight = n * direction(l + e, rsqrt(maximum(square, T(kTiny))));
+    // reflected() shortens vectors that are nearly opposed.
+    f_highlight.third += maximum(T(0), T(2 * kLeastHalfway) - square) * T(kNone);
   } else {
     f_highlight = scaled(f_light * (n * e), T(2)) + light_eye;
   }

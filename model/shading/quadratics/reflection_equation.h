@@ -95,13 +95,14 @@ ReflectionCosines<T> cosines_at(const ReflectionForm& form, const ReflectionTerm
   return cosines;
 }
 
+// Least |E + L|², reached if E and L are opposite. The highlight is 0 there and only has to be
+// finite. Surfaces that are both lit and seen are far from it.
+constexpr double kLeastHalfway = 1e-6;
+
 // Light: A N·L, not clamped, negative where unlit. Highlight: A^fold N·H or A^fold R·V.
 template <typename T, typename F, typename C>
 Reflected<F> reflected(const ReflectionForm& form, const SeriesWanted& wanted,
                        const ReflectionTerms<T>& terms, const ReflectionCosines<F, C>& at) {
-  // Least |E + L|², reached if E and L are opposite. The highlight is 0 there and only has to be
-  // finite. Surfaces that are both lit and seen are far from it.
-  constexpr double kLeastHalfway = 1e-6;
   Reflected<F> result;
   if (wanted.light) result.light = at.light;
   if (wanted.highlight) {

@@ -92,10 +92,16 @@ TEST(TableErrorBound, HoldsForEveryWordAndIsNearlyReached) {
     double nearest = 0;
     for (const int address_bits : {6, 9, 13}) {
       for (const int data_bits : {4, 8, 12}) {
-        for (const double n : {0.0, 0.5, 1.0, 20.0, 164.0, 10'000.0}) {
+        for (const auto& [specular, n] : {std::pair{0.8, 0.0},
+                                          {0.8, 0.5},
+                                          {0.8, 1.0},
+                                          {1.0, 1.0},
+                                          {0.8, 20.0},
+                                          {1.0, 20.0},
+                                          {0.8, 164.0},
+                                          {0.8, 10'000.0}}) {
           c.rom_address_bits = address_bits;
           c.rom_data_bits = data_bits;
-          const double specular = 0.8;
           const ExponentRom rom(c, specular, n);
           const double bound = table_error_bound(c, specular, n), reach = highlight_reach(c, n);
           double error = 0;
