@@ -43,6 +43,34 @@ double coefficient_noise(const TriangleInput<double>& input, double extent,
   return noise;
 }
 
+// Largest difference of a table's words from specular · x^n over all x that read them, in LSB. What
+// is beyond full scale counts under depth cueing, where it fades.
+double table_error(const FrameSetup& frame, const HighlightTable& table) {
+  const FrameConfiguration& f = frame.configuration;
+  const double n = table.shininess, reach = highlight_reach(f, n);
+  const double most = frame.scene->depth_cue ? std::numeric_limits<double>::max() : kOutputMax;
+  double largest = 0;
+  for (std::size_t c = 0; c < table.roms.size(); ++c) {
+    const double full = kOutputMax * table.specular[static_cast<Eigen::Index>(c)];
+    const std::vector<std::int32_t>& words = table.roms[c].words();
+    const auto addresses = static_cast<double>(words.size());
+    const auto value = [&](double address) {
+      const double x = address <= 0 ? 0 : 1 - reach * (1 - address / addresses);
+      return std::min(most, full * std::pow(std::clamp(x, 0.0, 1.0), n));
+    };
+    for (std::size_t a = 0; a < words.size(); ++a) {
+      const double word = std::min(most, std::ldexp(words[a], kOutputBits - f.rom_data_bits));
+      const auto address = static_cast<double>(a);
+      largest = std::max(
+          {largest, std::fabs(word - value(address)), std::fabs(word - value(address + 1))});
+    }
+  }
+  return largest;
+}
+
+// An error in place of one that has no bound.
+constexpr double kNothing = 1e9;
+
 // One light's error, apart from the rounding of its sum to 8 bits.
 struct LightError {
   double total = 0, series = 0;
@@ -51,14 +79,19 @@ struct LightError {
 class LightCertificate {
  public:
   LightCertificate(const FrameSetup& frame, const ScreenTriangle& triangle, std::uint32_t pass,
-                   const Pixel& origin, int longest_row)
+                   const Pixel& origin, int longest_row, const std::vector<double>& table_errors)
       : frame_(frame),
         material_(frame.material(pass, triangle.material)),
-        input_(triangle_input(frame, triangle, pass, origin.x, origin.y)),
-        bound_(bound_reflection(material_.plan.form, material_.light.terms, input_.normal,
-                                input_.eye, input_.light)) {
+        input_(triangle_input(frame, triangle, pass, origin.x, origin.y)) {
     const FrameConfiguration& f = frame.configuration;
-    const ReflectionForm& form = material_.plan.form;
+    if (is_present(material_.plan.specular) &&
+        frame.tables[material_.table].specular.maxCoeff() > 0) {
+      table_ = &frame.tables[material_.table];
+    }
+    // The same whether or not hardware has more than the material needs.
+    ReflectionForm form = material_.plan.form;
+    form.local_viewer = table_ != nullptr && frame.scene->shading.viewer == Viewer::local;
+    bound_ = bound_reflection(form, material_.light.terms, input_.normal, input_.eye, input_.light);
     double extent = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       extent = std::max({extent, std::fabs(input_.x[i]), std::fabs(input_.y[i])});
@@ -70,17 +103,15 @@ class LightCertificate {
     scales_.noise = coefficient_noise(input_, extent, vectors);
     // What a material has not is 0 to the bit, whether it is built or left out.
     const auto& diffuse = light.diffuse_scale;
-    scales_.diffuse = *std::max_element(diffuse.begin(), diffuse.end());
+    scales_.diffuse = *std::max_element(diffuse.begin(), diffuse.begin() + f.channels);
     scales_.light_rounding = rounding_bound(f, f.diffuse_fraction_bits, extent, longest_row);
-    gate_scale_ = least_gate_scale();
-    if (is_present(material_.plan.specular) &&
-        frame.tables[material_.table].specular.maxCoeff() > 0) {
-      table_ = &frame.tables[material_.table];
+    least_scale_ = least_scale();
+    if (table_ != nullptr) {
       scales_.specular = kOutputMax * table_->specular.maxCoeff();
       scales_.shininess = table_->shininess;
       scales_.highlight_rounding =
           rounding_bound(f, f.specular_fraction_bits, extent, longest_row) / light.specular_scale;
-      table_error_ = table_error_bound(f, table_->specular.maxCoeff(), table_->shininess);
+      table_error_ = table_errors[material_.table];
     }
     const Interpolator<double> interpolate(input_.x, input_.y);
     const double first = interpolate.coordinate_1().c, second = interpolate.coordinate_2().c;
@@ -101,7 +132,7 @@ class LightCertificate {
     LightError result;
     // Where no light falls, neither does anything else.
     const double doubt = bound_.light.third * kappa(fits.light) + scales_.noise +
-                         scales_.light_rounding / gate_scale_;
+                         scales_.light_rounding / least_scale_;
     const bool gated = frame_.configuration.gate != GateSource::off;
     const bool dark = bound_.light.high + doubt <= 0;
     if (!dark && scales_.diffuse > 0) {
@@ -109,6 +140,10 @@ class LightCertificate {
       result.series = bound_.light.third * kappa(fits.light) * scales_.diffuse;
     }
     if (table_ == nullptr || (dark && gated)) return result;
+    if (bound_.highlight.third >= kNoBound || bound_.light.third >= kNoBound) {
+      result.total = kNothing;  // attenuation may exceed what the table is made for
+      return result;
+    }
     const double n = scales_.shininess;
     const double most = std::clamp(bound_.highlight.high + errors.base, 0.0, 1.0);
     const double visible = scales_.specular * std::pow(most, n);
@@ -133,11 +168,12 @@ class LightCertificate {
   double kappa(SeriesFit fit) const {
     return fit == SeriesFit::taylor ? taylor_error_ : kSixPointError;
   }
-  // LSB that the gate's series has for N·L = 1: any channel of the diffuse series opens it.
-  double least_gate_scale() const {
+  // LSB of N·L = 1, of the series that is the least certain of its sign: any channel of the diffuse
+  // series opens the gate.
+  double least_scale() const {
     double least = kOutputMax;
-    if (frame_.configuration.gate == GateSource::series) return least;
-    for (const double scale : material_.light.diffuse_scale) {
+    for (int c = 0; c < frame_.configuration.channels; ++c) {
+      const double scale = material_.light.diffuse_scale[static_cast<std::size_t>(c)];
       if (scale > 0) least = std::min(least, scale);
     }
     return least;
@@ -150,17 +186,18 @@ class LightCertificate {
   ErrorScales<double> scales_;
   const HighlightTable* table_ = nullptr;  // or null without a highlight
   double table_error_ = 0;                 // LSB
-  double gate_scale_ = 1;
+  double least_scale_ = 1;
   double taylor_error_ = 0;
   bool taylor_allowed_ = false;
 };
 
 // Of depth cueing, on top of the errors of lights: the share is truncated to kCueFactorBits, its
 // coefficients are rounded, and the result is rounded to 8 bits once more for each light.
-double cue_error(const FrameSetup& frame, double noise, double extent, int longest_row) {
+double cue_error(const FrameSetup& frame, const ScreenTriangle& triangle, double noise,
+                 double extent, int longest_row) {
   if (!frame.scene->depth_cue) return 0;
   const double share =
-      std::ldexp(1, -kCueFactorBits) +
+      cue_share_noise(*frame.scene, triangle) + std::ldexp(1, -kCueFactorBits) +
       std::ldexp(rounding_bound(frame.configuration, 0, extent, longest_row), -kCueFraction) +
       std::ldexp(noise, kCueIntegerBits);
   constexpr double kMostOverexposed = 2 * kOutputMax + 2;  // what the diffuse register holds
@@ -175,6 +212,12 @@ std::uint64_t pixels_of(const std::vector<RowSpan>& rows) {
 
 }  // namespace
 
+Certifier::Certifier(const FrameSetup& frame) : frame_(frame) {
+  for (const HighlightTable& table : frame.tables) {
+    table_errors_.push_back(table_error(frame, table));
+  }
+}
+
 QuadraticError Certifier::bound(const ScreenTriangle& triangle, const std::vector<RowSpan>& rows,
                                 std::vector<CertifiedFits>* fits) const {
   const FrameConfiguration& f = frame_.configuration;
@@ -184,14 +227,14 @@ QuadraticError Certifier::bound(const ScreenTriangle& triangle, const std::vecto
   std::vector<LightError> errors;
   double fixed = std::ldexp(0.5, -f.diffuse_fraction_bits);  // the level's rounding
   for (std::uint32_t pass = 0; pass < frame_.passes; ++pass) {
-    lights.emplace_back(frame_, triangle, pass, origin, longest_row(rows));
+    lights.emplace_back(frame_, triangle, pass, origin, longest_row(rows), table_errors_);
     const SeriesFit cheapest =
         lights.back().taylor_allowed() ? SeriesFit::taylor : SeriesFit::six_point;
     chosen.push_back({cheapest, cheapest});
     errors.push_back(lights.back().error(chosen.back()));
     if (pass == 0 || (lights.back().adds() && errors.back().total > 0)) {
       fixed +=
-          0.5 + cue_error(frame_, lights.back().noise(),
+          0.5 + cue_error(frame_, triangle, lights.back().noise(),
                           std::max(frame_.width, frame_.height) + kGuardBand, longest_row(rows));
     }
   }

@@ -1,16 +1,19 @@
 // Certified errors: for every triangle the cheapest shading whose error is proved to be at most the
 // setup engine's max_error, at every pixel and for all lights together.
 //
-// Of a light's diffuse term, in LSB:     255 kd (κ |f'''| + noise) + rounding of its series
-// Of its highlight of exponent n, where the power's base is off by δ = κ |f'''| + noise + rounding:
-//   at most n s^(n−1) δ of its full size, s being the largest base on the triangle; and never more
-//   than the highlight is there, s^n; and the table's error. Where the gate may open or close on
-//   the wrong side of the terminator it is the highlight itself.
-// Of each light, ½ LSB where its sum is rounded to 8 bits. Saturation only lessens errors.
-// κ |f'''| bounds the error of a Taylor series or of interpolation at six points, see
-// derivative_bounds.h; the other fits have no bound that is less than that of six points, and cost
-// more. noise is that of double precision, see coefficient_noise() in certificate.cpp; rounding
-// that of rounding_bound.h.
+// A series that stands for f errs by at most κ |f'''|: of a Taylor series or of interpolation at
+// six points, see derivative_bounds.h. With noise, that of double precision (see
+// coefficient_noise() in certificate.cpp), and rounding, that of rounding_bound.h, the errors are
+//
+// of a light's diffuse term, in LSB:     255 kd (κ |f'''| + noise) + rounding
+// of its highlight, in full highlights:  n s^(n−1) δ, the base of the power being off by δ =
+//                                        κ |f'''| + noise + rounding and at most s; but never more
+//                                        than the highlight is there, s^n
+//
+// and, of a highlight, the table's error. Where the gate may open or close on the wrong side of the
+// terminator, the error is the highlight itself. Each light's sum is rounded to 8 bits by ½ LSB;
+// saturation only lessens errors. Of the other fits nothing better is known than the bound of six
+// points plus their difference from it, so that they are not chosen.
 //
 // Triangles that no quadratic serves are split, where the pieces cost less than shading them pixel
 // by pixel, else they take exact_path.
@@ -27,13 +30,13 @@ namespace phongpipe {
 // Of a triangle by quadratics: the fits that suffice, or six points for all if none do.
 struct QuadraticError {
   double error_lsb = 0;   // of all lights
-  double series_lsb = 0;  // of it, by the series: each split leaves an eighth
+  double series_lsb = 0;  // the part of it that splitting reduces, to an eighth each time
 };
 
 class Certifier {
  public:
   // `frame`: a frame that certifies.
-  explicit Certifier(const FrameSetup& frame) : frame_(frame) {}
+  explicit Certifier(const FrameSetup& frame);
 
   // `rows`: the triangle's, not empty. Appends a choice for each light to `fits`, if not null.
   QuadraticError bound(const ScreenTriangle& triangle, const std::vector<RowSpan>& rows,
@@ -45,6 +48,7 @@ class Certifier {
 
  private:
   const FrameSetup& frame_;
+  std::vector<double> table_errors_;  // of each table of the frame, in LSB
 };
 
 // How a triangle that was set up is shaded.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/fixed/coverage.h"
 #include "model/shading/screen_interpolator.h"
 
 namespace phongpipe {
@@ -35,16 +36,17 @@ class SteppedVector {
 // What rounding may do to interpolated vectors, here and in the exact Phong shading that errors are
 // measured against, as a share of the longest corner: some ten roundings of terms as large as the
 // gradient of the barycentric coordinates times the farthest coordinate of the triangle.
-double interpolation_noise(const ScreenTriangle& triangle,
-                           const Interpolator<double>& interpolate) {
-  constexpr double kRoundings = 16;
+// Every step along a row adds another.
+double interpolation_noise(const ScreenTriangle& triangle, const Interpolator<double>& interpolate,
+                           int longest_row) {
+  const double roundings = 16 + longest_row;
   double farthest = 0;
   for (const ScreenVertex& vertex : triangle.vertices) {
     farthest = std::max({farthest, std::fabs(in_pixels(vertex.x)), std::fabs(in_pixels(vertex.y))});
   }
   const Linear<double> u = interpolate.coordinate_1(), v = interpolate.coordinate_2();
   const double gradient = std::fabs(u.a) + std::fabs(u.b) + std::fabs(v.a) + std::fabs(v.b);
-  return kRoundings * kUnit * (1 + gradient * farthest);
+  return roundings * kUnit * (1 + gradient * farthest);
 }
 
 // Largest change of a pixel, in LSB, if directions are off by `doubt`.
@@ -58,20 +60,21 @@ double change_of_pixel(const ExactLight<double>& light, const ExactPoint<double>
   const double specular =
       light.form.wanted.highlight ? largest(light.specular) * point.attenuation : 0;
   if (light.cone && std::fabs(point.cosines.spot - cutoff) <= doubt) return diffuse + specular;
-  const double n = light.shininess;
-  const double base = std::clamp(point.reflected.highlight, 0.0, 1.0);
-  if (std::fabs(point.reflected.light) <= doubt) {
-    return doubt * diffuse + specular * std::pow(std::min(1.0, base + doubt), n);
-  }
-  if (point.reflected.light < 0) return 0;
   // Of H, where light and eye are nearly opposed.
   double bent = doubt;
   const bool varies = light.form.point_light || light.form.local_viewer;
   if (varies && light.form.highlight == Highlight::halfway) {
     const double square = 2 * (1 + point.cosines.light_eye);
-    if (square < 2 * kLeastHalfway) return diffuse * doubt + specular;
+    const bool lit = point.reflected.light > -doubt;
+    if (square < 2 * kLeastHalfway) return diffuse * doubt + (lit ? specular : 0);
     bent = doubt * (1 + 4 / square);
   }
+  const double n = light.shininess;
+  const double base = std::clamp(point.reflected.highlight, 0.0, 1.0);
+  if (std::fabs(point.reflected.light) <= doubt) {
+    return doubt * diffuse + specular * std::pow(std::min(1.0, base + bent), n);
+  }
+  if (point.reflected.light < 0) return 0;
   // Below an exponent of 1 the power is steepest where it is least, and 0 for what is below 0.
   const bool dark = point.reflected.highlight + bent <= 0;
   const double power = dark              ? 0
@@ -84,12 +87,12 @@ double change_of_pixel(const ExactLight<double>& light, const ExactPoint<double>
 
 class TriangleShader {
  public:
-  TriangleShader(const FrameSetup& frame, const ScreenTriangle& triangle)
+  TriangleShader(const FrameSetup& frame, const ScreenTriangle& triangle, int longest_row)
       : frame_(frame),
         scene_(*frame.scene),
         lights_(exact_lights(frame, frame.geometry->materials[triangle.material])),
         interpolate_(screen_interpolator(triangle)),
-        noise_(interpolation_noise(triangle, interpolate_)),
+        noise_(interpolation_noise(triangle, interpolate_, longest_row)),
         normal_(stepped([&](std::size_t i) { return triangle.vertices[i].normal; })),
         eye_(stepped([&](std::size_t i) { return triangle.vertices[i].eye; })) {
     const Material& material = frame.geometry->materials[triangle.material];
@@ -104,6 +107,7 @@ class TriangleShader {
     const auto& v = triangle.vertices;
     distance_ = interpolate_(view_distance(scene_, v[0]), view_distance(scene_, v[1]),
                              view_distance(scene_, v[2]));
+    cue_noise_ = 2 * kOutputMax * cue_share_noise(scene_, triangle);
     for (std::size_t c = 0; c < 3; ++c) {
       cue_[c] = kOutputMax * scene_.depth_cue->color[static_cast<Eigen::Index>(c)];
     }
@@ -132,7 +136,7 @@ class TriangleShader {
   std::array<std::int64_t, 3> pixel(double x, double y, std::uint32_t& refused) const {
     std::array<double, 3> color = ambient_;
     const int channels = frame_.configuration.channels;
-    double change = 0;
+    double change = cue_noise_;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       const ExactLight<double>& light = lights_[i];
       const bool near = light.form.point_light, local = light.form.local_viewer;
@@ -178,6 +182,7 @@ class TriangleShader {
   std::vector<double> cutoff_;  // cosine at the edge of the cone
   std::array<double, 3> ambient_{}, cue_{};
   Linear<double> distance_{};  // along the view, with depth cueing
+  double cue_noise_ = 0;       // LSB
 };
 
 }  // namespace
@@ -213,7 +218,7 @@ std::vector<ExactLight<double>> exact_lights(const FrameSetup& frame, const Mate
 ExactPixels shade_exactly(const FrameSetup& frame, const ScreenTriangle& triangle,
                           const std::vector<RowSpan>& rows) {
   ExactPixels result;
-  TriangleShader shader(frame, triangle);
+  TriangleShader shader(frame, triangle, longest_row(rows));
   for (const RowSpan& row : rows) shader.shade(row, result);
   return result;
 }
@@ -225,6 +230,17 @@ std::vector<RowSpan> one_pixel_rows(const std::vector<RowSpan>& rows) {
     for (int i = 0; i < row.length; ++i) pixels.push_back({row.x + i, row.y, 1, true, place++});
   }
   return pixels;
+}
+
+double cue_share_noise(const Scene& scene, const ScreenTriangle& triangle) {
+  if (!scene.depth_cue) return 0;
+  const DepthCue& cue = *scene.depth_cue;
+  double farthest = std::fabs(cue.far);
+  for (const ScreenVertex& vertex : triangle.vertices) {
+    farthest = std::max(farthest, std::fabs(view_distance(scene, vertex)));
+  }
+  constexpr double kRoundings = 32;
+  return kRoundings * kUnit * farthest / (cue.far - cue.near);
 }
 
 }  // namespace phongpipe

@@ -30,6 +30,10 @@ struct ExactPixels {
 ExactPixels shade_exactly(const FrameSetup& frame, const ScreenTriangle& triangle,
                           const std::vector<RowSpan>& rows);
 
+// What rounding may do to the share of a pixel's own colour under depth cueing: distances cancel
+// out.
+double cue_share_noise(const Scene& scene, const ScreenTriangle& triangle);
+
 // The same pixels as rows of their own.
 std::vector<RowSpan> one_pixel_rows(const std::vector<RowSpan>& rows);
 

@@ -8,6 +8,7 @@
 #include "model/fixed/coverage.h"
 #include "model/fixed/gate_bound.h"
 #include "model/scene/input_error.h"
+#include "model/shading/phong.h"
 
 namespace phongpipe {
 namespace {
@@ -90,8 +91,9 @@ int specular_guard_bits(const FixedPointFormats& formats, const Scene& scene,
 bool needs_gate_series(const FixedPointFormats& formats, const Scene& scene,
                        const Geometry& geometry) {
   return any_pair(scene, geometry, [&](const Material& material, const Light& light) {
+    const auto channels = formats.channel_choice == ChannelChoice::one ? 1 : 3;
     return has_highlight(material, light) &&
-           (!is_lit(material, light) ||
+           (!(material.diffuse * light.color > 0).head(channels).any() ||
             diffuse_loses_sign(formats, scene, geometry, material, light));
   });
 }
@@ -143,9 +145,9 @@ double largest_attenuation(const Light& light, const Geometry& geometry) {
       largest = std::max(largest, distance_attenuation(light, light_vector(light, vertex).norm()));
     }
   }
-  // A light on a vertex may have any; what is that bright saturates all the same.
+  // A fading light on a vertex may have any; what is that bright saturates all the same.
   constexpr double kBrightest = 1e6;
-  return std::min(largest, kBrightest);
+  return is_attenuated(light) ? std::min(largest, kBrightest) : largest;
 }
 
 LightInput<double> light_input(const Scene& scene, const Light& light, double largest_attenuation,
@@ -155,9 +157,7 @@ LightInput<double> light_input(const Scene& scene, const Light& light, double la
   ReflectionTerms<double>& terms = input.terms;
   terms.to_light = -light.direction;
   terms.eye = infinite_eye(scene);
-  const Vec3 halfway = terms.eye + terms.to_light;
-  // Looking straight into the light there is no halfway vector, and no highlight.
-  terms.halfway = halfway.norm() > 0 ? Vec3(halfway.normalized()) : Vec3(Vec3::Zero());
+  terms.halfway = halfway_vector(terms.eye, terms.to_light);
   for (std::size_t i = 0; i < 3; ++i)
     terms.attenuation[i] = light.attenuation[i] * largest_attenuation;
   terms.spot_axis = -light.direction;

@@ -24,7 +24,8 @@ bool diffuse_loses_sign(const FixedPointFormats& formats, const Scene& scene,
                         const Geometry& geometry, const Material& material, const Light& light) {
   // Any channel opens the gate: the darkest that is lit decides.
   const Color scales = kOutputMax * material.diffuse * light.color;
-  const double scale = (scales > 0).select(scales, kOutputMax).minCoeff();
+  const auto channels = formats.channel_choice == ChannelChoice::one ? 1 : 3;
+  const double scale = (scales > 0).select(scales, kOutputMax).head(channels).minCoeff();
   // The largest |N·L| whose sign may be wrong.
   const auto doubtful = [&](int extent) {
     return rounding_bound(formats, formats.diffuse_fraction_bits, extent, extent) / scale;

@@ -30,6 +30,13 @@ Vec3 at(const Linear<Vec3>& q, double x, double y) {
 
 }  // namespace
 
+Vec3 halfway_vector(const Vec3& eye, const Vec3& to_light) {
+  constexpr double kOpposed = 1e-6;
+  const Vec3 sum = eye + to_light;
+  const double length = sum.norm();
+  return length > kOpposed ? Vec3(sum / length) : Vec3(Vec3::Zero());
+}
+
 bool in_cone(const Light& light, const Vec3& unit_to_light) {
   if (light.type != LightType::spot) return true;
   const double cosine = std::max(0.0, -unit_to_light.dot(light.direction));
@@ -41,7 +48,7 @@ Illumination illuminate(const Scene& scene, const Light& light, const Vec3& eye,
   Illumination result;
   result.light = unit_or_zero(to_light);
   result.highlight =
-      scene.shading.highlight == Highlight::halfway ? unit_or_zero(eye + result.light) : eye;
+      scene.shading.highlight == Highlight::halfway ? halfway_vector(eye, result.light) : eye;
   result.color = falloff(light, result.light, to_light.norm()) * light.color;
   return result;
 }

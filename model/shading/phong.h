@@ -8,6 +8,10 @@
 
 namespace phongpipe {
 
+// The unit vector between two unit vectors; zero, which has no highlight, where they are opposed
+// but for rounding: looking straight into the light.
+Vec3 halfway_vector(const Vec3& eye, const Vec3& to_light);
+
 // Directions and colour of one light at one surface point.
 struct Illumination {
   Vec3 light = Vec3::Zero();  // unit, surface → light

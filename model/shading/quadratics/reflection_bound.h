@@ -9,11 +9,15 @@
 
 namespace phongpipe {
 
+// A third derivative that is at least so large says that nothing is proved.
+constexpr double kNoBound = 1e6;
+
 // Of one of the functions.
 template <typename T>
 struct ReflectionBound {
   T low{}, high{};  // its values
   T third{};        // its third derivative
+  T cancelled{};    // how many times more its arithmetic loses, where light and eye are opposed
 };
 
 // A vector that is linear between the corners.
@@ -69,13 +73,13 @@ namespace detail {
 template <typename T>
 ReflectionBound<T> bound_from_corners(const std::array<T, 3>& f, const T& second, const T& third) {
   const T off = second * T(kLinearError);
-  return {at_most(f[0], at_most(f[1], f[2])) - off, maximum(f[0], maximum(f[1], f[2])) + off,
-          third};
+  return {at_most(f[0], at_most(f[1], f[2])) - off, maximum(f[0], maximum(f[1], f[2])) + off, third,
+          T(0)};
 }
 
-// Of f = N·M/|N| for a constant unit M. With β = N·N'/|N|², g the length of the derivative of N/|N|
-// and θ the angle between N and M, the part of M across N being sin θ,
-//   |f''| = |f g² + 2βσ|,   |f'''| = |6f β g² + 3σ (2β² − g²)|,   |σ| ≤ g sin θ:
+// Of f = N·M/|N| for a constant unit M. With β = N·N'/|N|², g the length of (N/|N|)', θ the angle
+// between N and M, and σ = M·(N/|N|)', which is at most g sin θ for the derivative is across N,
+//   |f''| = |f g² + 2βσ|,   |f'''| = |6f β g² + 3σ (2β² − g²)|:
 // near the middle of a highlight, where the sine is small, it is nearly flat.
 template <typename T>
 ReflectionBound<T> bound_of_cosine(const Corners<T>& normal, const VectorExtent<T>& extent,
@@ -111,7 +115,9 @@ Reflected<ReflectionBound<T>> bound_general(const ReflectionForm& form,
                                             const ReflectionTerms<T>& terms,
                                             const Corners<T>& normal, const Corners<T>& eye,
                                             const Corners<T>& light) {
-  constexpr double kTiny = 1e-30, kNone = 1e30;
+  // What is too large by the least bit has no bound; an ulp of attenuation is not that.
+  constexpr double kTiny = 1e-30, kNone = 1e30, kUlps = 1e-9;
+  T cancelled(0);
   const auto constant = [] { return DerivativeBounds<T>{T(1), T(0), T(0), T(0)}; };
   const DerivativeBounds<T> n = VectorExtent<T>(normal).unit();
   std::optional<VectorExtent<T>> light_extent;
@@ -137,6 +143,7 @@ Reflected<ReflectionBound<T>> bound_general(const ReflectionForm& form,
     const T least = bound_from_corners(between, light_eye.second, T(0)).low;
     const T square = twice(T(1) + least);
     f_highlight = n * direction(l + e, rsqrt(maximum(square, T(kTiny))));
+    cancelled = reciprocal(maximum(square, T(kTiny))) * T(4);
     // reflected() shortens vectors that are nearly opposed.
     f_highlight.third += maximum(T(0), T(2 * kLeastHalfway) - square) * T(kNone);
   } else {
@@ -169,7 +176,7 @@ Reflected<ReflectionBound<T>> bound_general(const ReflectionForm& form,
       low = low * power(range.low, terms.spot_exponent);
       high = high * power(most, terms.spot_exponent);
     }
-    beyond = maximum(T(0), high - T(1));
+    beyond = maximum(T(0), high - T(1 + kUlps));
     f_light = f_light * a;
     f_highlight = f_highlight * powered(a, terms.fold, low, high);
   }
@@ -179,6 +186,7 @@ Reflected<ReflectionBound<T>> bound_general(const ReflectionForm& form,
   bound.light.third += maximum(T(0), beyond - T(kLargestAttenuation - 1)) * T(kNone);
   bound.highlight = bound_from_corners(of_highlight, f_highlight.second, f_highlight.third);
   bound.highlight.third += beyond * T(kNone);
+  bound.highlight.cancelled = cancelled;
   return bound;
 }
 
@@ -236,7 +244,8 @@ QuadraticErrors<T> quadratic_errors(const Reflected<ReflectionBound<T>>& bound,
   QuadraticErrors<T> errors;
   errors.light =
       (bound.light.third * light_error + scales.noise) * scales.diffuse + scales.light_rounding;
-  errors.base = bound.highlight.third * highlight_error + scales.noise + scales.highlight_rounding;
+  errors.base = bound.highlight.third * highlight_error +
+                scales.noise * (T(1) + bound.highlight.cancelled) + scales.highlight_rounding;
   const T most = at_most(T(1), maximum(T(0), bound.highlight.high + errors.base));
   errors.highlight =
       scales.shininess * power(most, scales.shininess - T(1)) * (errors.base * scales.specular);

@@ -6,10 +6,12 @@
 
 #include <map>
 
+#include "model/files/scene_file.h"
 #include "model/fixed/model_frame.h"
 #include "model/fixed/prepared_frame.h"
 #include "model/scene/input_error.h"
 #include "model/shading/phong.h"
+#include "testbench/accuracy/accuracy.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/cases/random_frame.h"
 #include "testbench/hardware/hardware.h"
@@ -237,6 +239,99 @@ TEST(Certificate, WhatHasNoExactColorIsRefused) {
   EXPECT_EQ(certificates.triangles[0].refused_pixels, 8U);
   EXPECT_EQ(certificates.triangles[0].error_lsb, 255);
 }
+
+// Scenes for which an error was once proved that did not hold.
+struct Pitfall {
+  const char* name;
+  const char* light;     // keys of [[light]]
+  const char* triangle;  // a row: six numbers of each corner
+  const char* material;  // keys of [material.m]
+  std::vector<std::string> settings = {};
+  const char* more = "";
+  const char* image = "width = 64\nheight = 64";
+};
+
+std::ostream& operator<<(std::ostream& out, const Pitfall& pitfall) {
+  return out << pitfall.name;
+}
+
+constexpr const char* kFlat = "0,0,0,0,0,-1,60,0,0,0,0,-1,0,60,0,0,0,-1";
+constexpr const char* kAcross = "type = \"directional\"\ndirection = [0, 0, 1]";
+
+class Pitfalls : public testing::TestWithParam<Pitfall> {};
+
+TEST_P(Pitfalls, AreProved) {
+  const Pitfall& p = GetParam();
+  const std::string text = fmt::format(
+      "[image]\n{}\n{}\n[[light]]\n{}\n[[object]]\ntriangle_rows = "
+      "\"\"\"\nx0,y0,z0,nx0,ny0,nz0,x1,y1,z1,nx1,ny1,nz1,x2,y2,z2,nx2,ny2,nz2\n{}"
+      "\n\"\"\"\nmaterial = "
+      "\"m\"\n[material.m]\n{}\n",
+      p.image, p.more, p.light, p.triangle, p.material);
+  const Scene scene = parse_scene(text, "pitfall.toml");
+  for (const char* limit : {"max_error=0.6", "max_error=1", "max_error=4", "max_error=12"}) {
+    std::vector<std::string> settings = p.settings;
+    settings.emplace_back(limit);
+    const Hardware hardware = load_hardware("default", settings);
+    const PreparedFrame frame(scene, hardware.formats, hardware.setup);
+    const ModelFrame model = run_model(frame.setup);
+    const double largest = measure_accuracy(frame.setup, model).total.largest_lsb;
+    EXPECT_LE(largest, *certified_error(frame.setup)) << limit;
+    // Hardware with every effect gives the same picture.
+    const PreparedFrame all(scene, hardware.formats, hardware.setup, Effects::all);
+    const ModelFrame everything = run_model(all.setup);
+    for (std::size_t i = 0; i < model.framebuffer.size(); ++i) {
+      ASSERT_EQ(model.framebuffer.color(i) & 255U, everything.framebuffer.color(i) & 255U) << i;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Pitfalls,
+    testing::Values(
+        Pitfall{"lamp_over_the_middle_of_a_triangle",
+                "type = \"point\"\nposition = [20.5, 20.5, -1]\nattenuation = [0, 0, 1]", kFlat,
+                "ambient = 0\ndiffuse = 0\nspecular = 1\nshininess = 20"},
+        Pitfall{"light_and_eye_nearly_opposed", "type = \"point\"\nposition = [500, 20, 1e6]",
+                "0,0,0,0.9,0,0.436,60,0,0,0.9,0,0.436,0,60,0,0.9,0,0.436",
+                "ambient = 0\ndiffuse = 0.5\nspecular = 1\nshininess = 1"},
+        Pitfall{"tiny_constant_attenuation",
+                "type = \"point\"\nposition = [1752, 20, -1000]\nattenuation = [1e-9, 0, 0]", kFlat,
+                "ambient = 0\ndiffuse = 1e-6\nspecular = 0\nshininess = 20"},
+        Pitfall{"words_that_saturate",
+                kAcross,
+                kFlat,
+                "ambient = 0\ndiffuse = 0\nspecular = 1\nshininess = 20",
+                {"rom_layout=plain", "rom_address_bits=10", "rom_data_bits=4"}},
+        Pitfall{"overexposed_highlight_that_fades",
+                "type = \"point\"\nposition = [20, 20, -1000]\nattenuation = [0.5, 0, 0]",
+                "0,0,1,0,0,-1,60,0,1,0,0,-1,0,60,1,0,0,-1",
+                "ambient = 0\ndiffuse = 0.1\nspecular = 1\nshininess = 20",
+                {},
+                "[depth_cue]\nnear = 0\nfar = 2\ncolor = 0"},
+        Pitfall{"one_channel_of_a_colour",
+                "type = \"directional\"\ndirection = [0.5, 0, 1]",
+                kFlat,
+                "ambient = 0\ndiffuse = [0, 0.6, 0]\nspecular = 1\nshininess = 20",
+                {"channels=1"}},
+        Pitfall{"edge_of_a_cone_on_pixel_centres",
+                "type = \"spot\"\nposition = [60.5, 50.5, -20]\ndirection = [0, 0, "
+                "1]\nspot_cutoff_degrees = 45",
+                "72.7421875,50.34765625,0,0,0,-1,127.8359375,75.390625,0,0,0,-1,129.3515625,"
+                "4.41796875,0,0,0,-1",
+                "ambient = 0\ndiffuse = 0.9\nspecular = 0\nshininess = 20",
+                {},
+                "",
+                "width = 136\nheight = 96"},
+        Pitfall{"terminator_in_the_middle_of_a_long_row",
+                "type = \"directional\"\ndirection = [-1, 0, 0]",
+                "0.5,0.25,0,-0.45399049973954675,0,-0.8910065241883679,4000.5,0.25,0,"
+                "0.45399049973954675,0,-0.8910065241883679,2000.5,3000.25,0,0,0,-1",
+                "ambient = 0\ndiffuse = 0.5\nspecular = 1\nshininess = 1",
+                {},
+                "",
+                "width = 4096\nheight = 4"}),
+    [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
 }  // namespace phongpipe
