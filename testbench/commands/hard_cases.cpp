@@ -16,7 +16,7 @@ namespace phongpipe {
 namespace {
 
 std::vector<HardCase> chosen(const std::vector<std::string>& names) {
-  const std::vector<HardCase> all = hard_cases();
+  std::vector<HardCase> all = hard_cases();
   if (names.empty()) return all;
   std::vector<HardCase> cases;
   for (const std::string& name : names) {

@@ -23,9 +23,10 @@ void paste(const Picture& picture, int left, int top, Picture& sheet) {
     for (int x = 0; x < kCell; ++x) {
       const int from_x = x * larger / kCell, from_y = y * larger / kCell;
       if (from_x >= picture.width || from_y >= picture.height) continue;
-      const std::size_t from = static_cast<std::size_t>(from_y * picture.width + from_x) * channels;
-      std::uint8_t* const to =
-          sheet.pixel(static_cast<std::size_t>((top + y) * sheet.width + left + x));
+      const int from_pixel = from_y * picture.width + from_x;
+      const int to_pixel = (top + y) * sheet.width + left + x;
+      const std::size_t from = static_cast<std::size_t>(from_pixel) * channels;
+      std::uint8_t* const to = sheet.pixel(static_cast<std::size_t>(to_pixel));
       for (std::size_t c = 0; c < 3; ++c) to[c] = picture.bytes[from + (channels == 3 ? c : 0)];
     }
   }

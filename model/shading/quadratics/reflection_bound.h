@@ -154,7 +154,7 @@ Reflected<ReflectionBound<T>> bound_general(const ReflectionForm& form,
     DerivativeBounds<T> a = constant();
     T low(1), high(1);
     if (form.attenuated) {
-      const auto& [c, linear, q] = terms.attenuation;
+      const T &c = terms.attenuation[0], &linear = terms.attenuation[1], &q = terms.attenuation[2];
       const DerivativeBounds<T> distance =
           length(light_extent->vector, light_extent->inverse_least);
       const T nearest = reciprocal(light_extent->inverse_least), farthest = distance.value;
