@@ -203,15 +203,20 @@ void SetupEngine::leave_out(SeriesPlan& plan, const MaterialSetup& material,
   }
 }
 
-TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
-                                  int longest_row, const CertifiedFits* fits) const {
-  const FrameConfiguration& configuration = frame_->configuration;
+TriangleSetup SetupEngine::begin(std::uint32_t triangle, std::uint32_t pass, int x, int y) const {
   TriangleSetup setup;
   setup.x = x;
   setup.y = y;
   setup.triangle = triangle;
   setup.pass = pass;
   setup.material = &frame_->material(pass, frame_->geometry->triangles[triangle].material);
+  return setup;
+}
+
+TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, int x, int y,
+                                  int longest_row, const CertifiedFits* fits) const {
+  const FrameConfiguration& configuration = frame_->configuration;
+  TriangleSetup setup = begin(triangle, pass, x, y);
   const TriangleInput<double> vertices =
       triangle_input(*frame_, frame_->geometry->triangles[triangle], pass, x, y);
   SeriesPlan plan = simplified_plan(*setup.material, vertices);
@@ -265,12 +270,7 @@ TriangleSetup SetupEngine::set_up(std::uint32_t triangle, std::uint32_t pass, in
 
 TriangleSetup SetupEngine::set_up_exact(std::uint32_t triangle, std::uint32_t pass, int x,
                                         int y) const {
-  TriangleSetup setup;
-  setup.x = x;
-  setup.y = y;
-  setup.triangle = triangle;
-  setup.pass = pass;
-  setup.material = &frame_->material(pass, frame_->geometry->triangles[triangle].material);
+  TriangleSetup setup = begin(triangle, pass, x, y);
   setup.plan = setup.material->plan;
   setup.plan.diffuse = setup.plan.specular = setup.plan.gate = SeriesForm::absent;
   setup.plan.exact_path = true;

@@ -53,6 +53,8 @@ class SetupEngine {
                                             int y) const;
 
  private:
+  // Without coefficients.
+  TriangleSetup begin(std::uint32_t triangle, std::uint32_t pass, int x, int y) const;
   // What the frame's memo has of a triangle, or `otherwise` if it has no place for it.
   GeometryMemo::Triangle& known(std::uint32_t triangle, std::uint32_t pass,
                                 GeometryMemo::Triangle& otherwise) const;
