@@ -182,8 +182,8 @@ TEST_P(HostileTriangles, StayWithinWhatIsProved) {
 
 INSTANTIATE_TEST_SUITE_P(Limits, HostileTriangles,
                          testing::Values(Limit{1, "default", 100}, Limit{0.502, "default", 5},
-                                         Limit{4, "default", 20}, Limit{2, "paper-1k", 20},
-                                         Limit{8, "paper-8k", 20}),
+                                         Limit{4, "default", 8}, Limit{2, "paper-1k", 8},
+                                         Limit{8, "paper-8k", 8}),
                          [](const auto& info) {
                            std::string name =
                                fmt::format("{}_{}", info.param.hardware, info.param.max_error_lsb);
