@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "model/fixed/cone.h"
 #include "model/fixed/coverage.h"
 #include "model/fixed/exact_path.h"
 #include "model/fixed/rounding_bound.h"
@@ -299,7 +298,7 @@ Certificates certify(const FrameSetup& frame) {
   Certificates result;
   result.triangles.resize(triangles.size());
   result.fits.resize(triangles.size() * frame.passes);
-  std::vector<RowSpan> rows, lit;
+  std::vector<RowSpan> rows;
   std::vector<CertifiedFits> fits;
   // Whether all values under all lights fit their registers.
   const auto fits_registers = [&](std::uint32_t triangle) {

@@ -11,8 +11,7 @@ void split_at_cone(const Light& light, const ScreenTriangle& triangle, std::vect
   if (light.type != LightType::spot) return;
   // As exact Phong shading does it, to the last bit.
   const auto inside = [&light](const Vec3& to_light) {
-    const double length = to_light.norm();
-    return in_cone(light, length > 0 ? Vec3(to_light / length) : Vec3(Vec3::Zero()));
+    return in_cone(light, unit_or_zero(to_light));
   };
   // Corners that are well inside: all pixels are.
   constexpr double kMarginDegrees = 1e-6;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "model/fixed/coverage.h"
+#include "model/shading/phong.h"
 #include "model/shading/screen_interpolator.h"
 
 namespace phongpipe {
@@ -101,7 +102,7 @@ class TriangleShader {
     for (const Light& light : scene_.lights) {
       to_light_.push_back(
           stepped([&](std::size_t i) { return light_vector(light, triangle.vertices[i]); }));
-      cutoff_.push_back(std::cos(light.spot_cutoff_degrees * 3.14159265358979323846 / 180));
+      cutoff_.push_back(cone_cosine(light));
     }
     if (!scene_.depth_cue) return;
     const auto& v = triangle.vertices;

@@ -11,11 +11,6 @@ namespace {
 
 constexpr double kDegrees = 3.14159265358979323846 / 180;
 
-Vec3 unit_or_zero(const Vec3& v) {
-  const double length = v.norm();
-  return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
-}
-
 // 1/(c + l d + q d²), times the spot's cone.
 double falloff(const Light& light, const Vec3& unit_to_light, double distance) {
   const double attenuation = distance_attenuation(light, distance);
@@ -30,6 +25,15 @@ Vec3 at(const Linear<Vec3>& q, double x, double y) {
 
 }  // namespace
 
+Vec3 unit_or_zero(const Vec3& v) {
+  const double length = v.norm();
+  return length > 0 ? Vec3(v / length) : Vec3(Vec3::Zero());
+}
+
+double cone_cosine(const Light& light) {
+  return std::cos(light.spot_cutoff_degrees * kDegrees);
+}
+
 Vec3 halfway_vector(const Vec3& eye, const Vec3& to_light) {
   constexpr double kOpposed = 1e-6;
   const Vec3 sum = eye + to_light;
@@ -40,7 +44,7 @@ Vec3 halfway_vector(const Vec3& eye, const Vec3& to_light) {
 bool in_cone(const Light& light, const Vec3& unit_to_light) {
   if (light.type != LightType::spot) return true;
   const double cosine = std::max(0.0, -unit_to_light.dot(light.direction));
-  return cosine >= std::cos(light.spot_cutoff_degrees * kDegrees);
+  return cosine >= cone_cosine(light);
 }
 
 Illumination illuminate(const Scene& scene, const Light& light, const Vec3& eye,

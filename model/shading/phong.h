@@ -20,6 +20,12 @@ struct Illumination {
   Color color = Color::Zero();  // after attenuation and spot factor
 };
 
+// v/|v|, or zero for a vector without direction.
+Vec3 unit_or_zero(const Vec3& v);
+
+// The cosine at the edge of a spotlight's cone.
+double cone_cosine(const Light& light);
+
 // Whether a point is inside the light's cone; true for lights other than spots. `unit_to_light`:
 // surface → light.
 bool in_cone(const Light& light, const Vec3& unit_to_light);

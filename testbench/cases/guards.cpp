@@ -16,7 +16,6 @@ using Count = std::uint64_t;
 
 // Parts of pixel_datapath that can be taken out.
 enum class Part {
-  none,
   top_of_table,     // the address saturates at the brightest word
   bottom_of_table,  // and at the faintest
   gate,
@@ -109,7 +108,7 @@ class SteppedSpan {
   ForwardDifferencer gate_, specular_, cue_;
 };
 
-// Calls `visit(span, stepped, table, color)` for every pixel of the stream.
+// Calls `visit(span, stepped, table, color, i)` for pixel i of every span of the stream.
 template <typename Visit>
 void for_each_pixel(const FrameSetup& frame, const Visit& visit) {
   SpanStream stream(frame);
