@@ -1,15 +1,19 @@
 #!/usr/bin/env bash
-# install.sh [ci]: installs the Debian packages that are missing; says nothing where none is.
+# install.sh [ci|fuzz]: installs the Debian packages that are missing; says nothing where none is.
 set -euo pipefail
 packages=(
   g++ cmake ninja-build ccache pkg-config git
   verilator yosys iverilog
-  libsystemc-dev libcli11-dev libtomlplusplus-dev libassimp-dev libeigen3-dev libfmt-dev
+  libsystemc-dev libcli11-dev libtomlplusplus-dev libeigen3-dev libfmt-dev
   nlohmann-json3-dev libstb-dev zlib1g-dev libsqlitecpp-dev libmuparser-dev libpugixml-dev
+  nettle-dev libseccomp-dev
   node-d3
   libgtest-dev librapidcheck-dev libbenchmark-dev
 )
-if [ "${1:-}" = ci ]; then packages+=(clang-format clang-tidy); fi
+case "${1:-}" in
+  ci) packages+=(clang-format clang-tidy clang libclang-rt-dev) ;;
+  fuzz) packages+=(clang libclang-rt-dev) ;;
+esac
 
 missing=()
 for package in "${packages[@]}"; do

@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMaxSegments = 65536;
-constexpr std::size_t kMaxPrimitiveTriangles = std::size_t{1} << 22;
 
 void read_primitive(const TomlTable& table, Object& object) {
   object.primitive = table.text("primitive");
@@ -41,10 +40,9 @@ void read_primitive(const TomlTable& table, Object& object) {
     table.fail("segments", fmt::format("segments of a {} must be at least [{}, {}]",
                                        object.primitive, least[0], least[1]));
   }
-  if (primitive->triangles(object.segments) > kMaxPrimitiveTriangles) {
-    table.fail("segments",
-               fmt::format("segments make {} triangles, must be at most {}",
-                           primitive->triangles(object.segments), kMaxPrimitiveTriangles));
+  if (primitive->triangles(object.segments) > kMaxMeshTriangles) {
+    table.fail("segments", fmt::format("segments make {} triangles, must be at most {}",
+                                       primitive->triangles(object.segments), kMaxMeshTriangles));
   }
 }
 

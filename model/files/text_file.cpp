@@ -1,10 +1,17 @@
 #include "model/files/text_file.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <sstream>
+#include <cstdlib>
+#include <cstring>
+#include <type_traits>
 
 #include "model/scene/input_error.h"
 
@@ -20,32 +27,83 @@ std::optional<Number> parse_whole(std::string_view word) {
   }
   Number value{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if constexpr (std::is_floating_point_v<Number>) {
+    // Too near to zero for a double, or too far from it.
+    if (error == std::errc::result_out_of_range && end == word.data() + word.size()) {
+      return std::strtod(std::string(word).c_str(), nullptr);
+    }
+  }
   if (error != std::errc() || end != word.data() + word.size()) {
     return std::nullopt;
   }
   return value;
 }
 
+struct OpenFile {
+  explicit OpenFile(int opened) : descriptor(opened) {}
+  ~OpenFile() {
+    if (descriptor >= 0) close(descriptor);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  struct stat status() const {
+    struct stat result {};
+    fstat(descriptor, &result);
+    return result;
+  }
+
+  const int descriptor;
+};
+
+const char* kind_of(mode_t mode) {
+  return S_ISDIR(mode)                    ? "directory"
+         : S_ISFIFO(mode)                 ? "pipe"
+         : S_ISCHR(mode) || S_ISBLK(mode) ? "device"
+                                          : "socket";
+}
+
 }  // namespace
 
-std::string read_whole_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) {
-    throw InputError(file, 0, "no such file");
+std::string read_whole_file(const std::filesystem::path& file, std::size_t max_bytes) {
+  // Without waiting for whoever writes to a pipe.
+  const OpenFile opened(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (opened.descriptor < 0) {
+    throw InputError(file, 0,
+                     errno == ENOENT  ? "no such file"
+                     : errno == ENXIO ? "is a socket or a device, not a file"
+                                      : fmt::format("cannot be read: {}", std::strerror(errno)));
   }
-  if (std::filesystem::is_directory(file, ignored)) {
-    throw InputError(file, 0, "is a directory, not a file");
+  const struct stat before = opened.status();
+  if (!S_ISREG(before.st_mode)) {
+    throw InputError(file, 0, fmt::format("is a {}, not a file", kind_of(before.st_mode)));
   }
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) {
-    throw InputError(file, 0, "cannot be read");
+  const auto size = static_cast<std::size_t>(before.st_size);
+  if (size > max_bytes) {
+    throw InputError(file, 0, fmt::format("has {} bytes, may have at most {}", size, max_bytes));
   }
-  if (text.str().find_first_not_of(" \t\r\n") == std::string::npos) {
+  // One byte more shows whether the file has grown.
+  std::string text(size + 1, '\0');
+  std::size_t done = 0;
+  for (ssize_t count = 1; count > 0 && done < text.size();) {
+    count = read(opened.descriptor, text.data() + done, text.size() - done);
+    if (count > 0) done += static_cast<std::size_t>(count);
+    if (count < 0 && errno == EINTR) count = 1;
+    if (count < 0) {
+      throw InputError(file, 0, fmt::format("cannot be read: {}", std::strerror(errno)));
+    }
+  }
+  const struct stat after = opened.status();
+  if (done != size || after.st_size != before.st_size ||
+      after.st_mtim.tv_sec != before.st_mtim.tv_sec ||
+      after.st_mtim.tv_nsec != before.st_mtim.tv_nsec) {
+    throw InputError(file, 0, "changed while it was read; try again");
+  }
+  text.resize(size);
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(file, 0, "the file is empty");
   }
-  return text.str();
+  return text;
 }
 
 bool LineReader::next(std::string_view& line) {
@@ -83,6 +141,12 @@ std::vector<std::string_view> split(std::string_view line, char separator) {
 
 std::vector<std::string_view> words(std::string_view line) {
   std::vector<std::string_view> parts;
+  words(line, parts);
+  return parts;
+}
+
+void words(std::string_view line, std::vector<std::string_view>& parts) {
+  parts.clear();
   for (std::size_t begin = line.find_first_not_of(kBlank); begin != std::string_view::npos;
        begin = line.find_first_not_of(kBlank)) {
     line.remove_prefix(begin);
@@ -90,7 +154,14 @@ std::vector<std::string_view> words(std::string_view line) {
     parts.push_back(line.substr(0, end));
     line.remove_prefix(end);
   }
-  return parts;
+}
+
+std::string excerpt(std::string_view text, std::size_t max_bytes) {
+  if (text.size() <= max_bytes) return std::string(text);
+  while (max_bytes > 0 && (static_cast<unsigned char>(text[max_bytes]) & 0xC0U) == 0x80U) {
+    --max_bytes;  // not within a character of UTF-8
+  }
+  return std::string(text.substr(0, max_bytes)) + "...";
 }
 
 std::optional<double> parse_number(std::string_view word) {

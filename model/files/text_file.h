@@ -9,8 +9,12 @@
 
 namespace phongpipe {
 
-// Throws InputError for a file that is missing, empty, unreadable or a directory.
-std::string read_whole_file(const std::filesystem::path& file);
+constexpr std::size_t kMaxFileBytes = std::size_t{256} << 20;
+
+// Throws InputError for what is missing, empty, unreadable, larger than `max_bytes` or not a file
+// (a folder, a pipe, a device, links in a circle), and for a file that changes meanwhile.
+std::string read_whole_file(const std::filesystem::path& file,
+                            std::size_t max_bytes = kMaxFileBytes);
 
 // Walks through a text line by line, without the line ends (\n or \r\n).
 class LineReader {
@@ -29,6 +33,9 @@ std::string_view trimmed(std::string_view text);
 std::vector<std::string_view> split(std::string_view line, char separator);
 // The words between spaces and tabs; none is empty.
 std::vector<std::string_view> words(std::string_view line);
+void words(std::string_view line, std::vector<std::string_view>& parts);
+// The beginning of a text, for a message: "..." stands for the rest.
+std::string excerpt(std::string_view text, std::size_t max_bytes = 60);
 
 // Empty unless the whole of `word` is a finite number.
 std::optional<double> parse_number(std::string_view word);

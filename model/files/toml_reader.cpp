@@ -19,6 +19,95 @@ unsigned line_of(const toml::node& node) {
   return node.source().begin.line;
 }
 
+// Keeps from the parser what would take too much of the stack (a key of many parts, on which it
+// recurs) or of memory. Arrays within arrays it limits itself, to a depth of 256.
+class SizeCheck {
+ public:
+  SizeCheck(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
+
+  void run() {
+    while (at_ < text_.size()) step();
+  }
+
+ private:
+  static constexpr std::size_t kMaxKeyParts = 64;
+  // Bytes that the parser needs for a number or a text in an array, an array, and a key with its
+  // value or its table, as measured, and how many bytes there may be.
+  static constexpr std::size_t kItemBytes = 80, kArrayBytes = 160, kKeyBytes = 320,
+                               kMaxBytes = std::size_t{320} << 20;
+
+  void step() {
+    switch (text_[at_]) {
+      case '#':
+        at_ = std::min(text_.find('\n', at_), text_.size());
+        return;
+      case '"':
+      case '\'':
+        return skip_string(text_[at_]);
+      case '.':
+        if (++dots_ >= kMaxKeyParts) {
+          fail(fmt::format("a key may have at most {} parts between dots", kMaxKeyParts));
+        }
+        break;
+      case ',':
+        count(kItemBytes);
+        break;
+      case '[':
+        count(kArrayBytes);
+        break;
+      case '{':
+        count(kKeyBytes);
+        break;
+      case '=':
+      case '\n':  // [a.b.c] is a key as well
+        count(kKeyBytes * (dots_ + (text_[at_] == '=' ? 1 : 0)));
+        break;
+      default:
+        break;
+    }
+    ++at_;
+  }
+
+  // What is counted ends what a dot belongs to.
+  void count(std::size_t bytes) {
+    dots_ = 0;
+    bytes_ += bytes;
+    if (bytes_ > kMaxBytes) {
+      fail(fmt::format("holds too much: more than {} MiB of keys and values", kMaxBytes >> 20U));
+    }
+  }
+
+  void skip_string(char quote) {
+    const std::string three(3, quote);
+    const bool long_string = text_.substr(at_, 3) == three;
+    at_ += long_string ? 3 : 1;
+    for (; at_ < text_.size(); ++at_) {
+      if (text_[at_] == '\\' && quote == '"') {
+        ++at_;
+      } else if (long_string ? text_.substr(at_, 3) == three : text_[at_] == quote) {
+        at_ += long_string ? 3 : 1;
+        // Two quotes may stand before those that end a long string.
+        for (int i = 0; long_string && i < 2 && at_ < text_.size() && text_[at_] == quote; ++i) {
+          ++at_;
+        }
+        return;
+      } else if (text_[at_] == '\n' && !long_string) {
+        return;  // a mistake that the parser finds
+      }
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    const auto lines =
+        std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at_), '\n');
+    throw InputError(file_, static_cast<unsigned>(lines) + 1, message);
+  }
+
+  const std::string_view text_;
+  const std::filesystem::path& file_;
+  std::size_t at_ = 0, dots_ = 0, bytes_ = 0;
+};
+
 }  // namespace
 
 struct TomlTable::State {
@@ -177,11 +266,12 @@ void apply_override(toml::table& document, const std::string& text) {
 
 TomlTable TomlTable::read_file(const std::filesystem::path& file,
                                const std::vector<std::string>& overrides) {
-  return read_text(read_whole_file(file), file, overrides);
+  return read_text(read_whole_file(file, kMaxTomlBytes), file, overrides);
 }
 
 TomlTable TomlTable::read_text(const std::string& text, const std::filesystem::path& file,
                                const std::vector<std::string>& overrides) {
+  SizeCheck(text, file).run();
   try {
     toml::table parsed = toml::parse(text, file.string());
     for (const std::string& change : overrides) apply_override(parsed, change);

@@ -23,6 +23,10 @@ struct NumberRange {  // inclusive
   double max = std::numeric_limits<double>::max();
 };
 
+// Larger files are refused. Also refused are keys of more than 64 parts, and texts whose keys and
+// values would take more than 320 MiB.
+constexpr std::size_t kMaxTomlBytes = std::size_t{64} << 20;
+
 // A handle to one table of a parsed file; copies share the file and the registered keys.
 class TomlTable {
  public:

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -30,6 +31,12 @@ class CsvReader {
   std::vector<ScreenTriangle> run(const std::string& text) {
     LineReader reader(text);
     std::vector<ScreenTriangle> triangles;
+    const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+    if (lines > kMaxMeshTriangles) {
+      throw InputError(
+          file_, 0,
+          fmt::format("{} lines, may have at most {} triangles", lines, kMaxMeshTriangles));
+    }
     bool header_seen = false;
     for (std::string_view line; reader.next(line);) {
       line_ = line_before_ + reader.number();
@@ -59,7 +66,7 @@ class CsvReader {
     for (std::size_t column = 0; column < kColumns; ++column) {
       if (trimmed(cells[column]) != column_name(column)) {
         fail(fmt::format("column {} of the header is '{}', must be '{}'", column + 1,
-                         trimmed(cells[column]), column_name(column)));
+                         excerpt(trimmed(cells[column])), column_name(column)));
       }
     }
   }
@@ -70,7 +77,7 @@ class CsvReader {
       const std::optional<double> value = parse_number(trimmed(cells[column]));
       if (!value) {
         fail(fmt::format("{} is '{}', not a finite number", column_name(column),
-                         trimmed(cells[column])));
+                         excerpt(trimmed(cells[column]))));
       }
       values[column] = *value;
     }

@@ -25,6 +25,10 @@ struct Mesh {
 
 // Largest coordinate accepted, by magnitude, so that no later product overflows.
 constexpr double kMaxCoordinate = 1e9;
+// Sizes beyond these are refused: a frame of so many triangles takes gigabytes and minutes.
+constexpr std::size_t kMaxMeshVertices = std::size_t{1} << 22;
+constexpr std::size_t kMaxMeshTriangles = std::size_t{1} << 22;
+constexpr std::size_t kMaxMeshMaterials = std::size_t{1} << 16;
 
 // Vector along the geometric normal of a face; its length is twice the area of the face.
 Vec3 face_area_vector(const Mesh& mesh, const MeshFace& face);

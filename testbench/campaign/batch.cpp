@@ -5,10 +5,10 @@
 #include <new>
 
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
 #include "testbench/cosim/metrics_json.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/record_json.h"
-#include "testbench/system/tool_error.h"
 #include "testbench/trace/capsule.h"
 
 namespace phongpipe {

@@ -13,12 +13,12 @@
 #include <tuple>
 
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
 #include "testbench/campaign/batch.h"
 #include "testbench/campaign/loader.h"
 #include "testbench/rtl/rtl_builder.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/output_file.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace {

@@ -16,8 +16,8 @@
 
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
 #include "testbench/system/terminal.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace {
@@ -26,6 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr int kApplicationId = 0x70686f67;  // "phog"
 constexpr int kSchemaVersion = 1;
+constexpr int kMaxValueBytes = 64 << 20;  // of a text in a row
 
 // Columns of the table `runs` before those of keys and metrics.
 constexpr std::string_view kFixedColumns[] = {
@@ -38,12 +39,18 @@ std::string quoted_name(std::string_view name) {
   return result + "\"";
 }
 
+// A value that we would not have written.
+class DamagedRow : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 template <typename Enum, int kCount>
 Enum from_name(const std::string& text) {
   for (int i = 0; i < kCount; ++i) {
     if (name(static_cast<Enum>(i)) == text) return static_cast<Enum>(i);
   }
-  throw InputError(fmt::format("unknown word {}", printable(text)));
+  throw DamagedRow(fmt::format("unknown word '{}'", printable(excerpt(text))));
 }
 Outcome outcome_from(const std::string& text) {
   return from_name<Outcome, kOutcomes>(text);
@@ -55,10 +62,12 @@ VerifiedBy verified_by_from(const std::string& text) {
 // Runs `work`; errors of SQLite become ours, and name the file.
 template <typename Work>
 auto guarded(const fs::path& file, Work work) -> decltype(work()) {
+  const std::string name = printable(file.string());
   try {
     return work();
+  } catch (const DamagedRow& error) {
+    throw InputError(fmt::format("{}: a damaged database ({})", name, error.what()));
   } catch (const SQLite::Exception& error) {
-    const std::string name = printable(file.string());
     switch (error.getErrorCode()) {
       case SQLITE_BUSY:
       case SQLITE_LOCKED:
@@ -69,6 +78,8 @@ auto guarded(const fs::path& file, Work work) -> decltype(work()) {
       case SQLITE_NOTADB:
       case SQLITE_CORRUPT:
       case SQLITE_FORMAT:
+      case SQLITE_TOOBIG:
+      case SQLITE_ERROR:  // a table or a column is not there
         throw InputError(fmt::format("{}: no database, or a damaged one ({})", name, error.what()));
       case SQLITE_CANTOPEN:
       case SQLITE_READONLY:
@@ -132,7 +143,8 @@ void create_schema(SQLite::Database& database, const std::string& kind) {
   database.exec(fmt::format("CREATE TABLE runs ({}) WITHOUT ROWID", columns));
 }
 
-// Checks whose file it is.
+// Checks whose file it is, and that it holds nothing but plain tables, none of which is damaged:
+// views, triggers and computed columns would run as programs.
 void check_schema(const fs::path& file, SQLite::Database& database) {
   const std::string name = printable(file.string());
   if (database.execAndGet("PRAGMA application_id").getInt() != kApplicationId) {
@@ -142,6 +154,24 @@ void check_schema(const fs::path& file, SQLite::Database& database) {
   if (version > kSchemaVersion) {
     throw InputError(fmt::format("{}: written by a later phongpipe (schema {}, this one knows {})",
                                  name, version, kSchemaVersion));
+  }
+  constexpr const char* kStrangers =
+      "SELECT count(*) FROM sqlite_master WHERE NOT (type = 'table' AND sql LIKE 'CREATE TABLE%' "
+      "AND "
+      "name IN ('about', 'keys', 'shards', 'runs')) AND NOT (type = 'index' AND sql IS NULL)";
+  constexpr const char* kComputed =
+      "SELECT count(*) FROM sqlite_master AS m, pragma_table_xinfo(m.name) AS c WHERE c.hidden <> "
+      "0";
+  for (const char* query : {kStrangers, kComputed}) {
+    if (database.execAndGet(query).getInt() != 0) {
+      throw InputError(
+          fmt::format("{}: a database with tables that phongpipe does not make", name));
+    }
+  }
+  const std::string fault = database.execAndGet("PRAGMA quick_check(1)").getString();
+  if (fault != "ok") {
+    throw InputError(
+        fmt::format("{}: a damaged database ({})", name, printable(excerpt(fault, 200))));
   }
 }
 
@@ -251,6 +281,8 @@ Store::Store(const fs::path& file, Access access, const std::string& kind)
     database_ = std::make_unique<SQLite::Database>(
         file_.string(),
         writes ? SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE : SQLite::OPEN_READONLY);
+    database_->exec("PRAGMA trusted_schema = OFF");
+    sqlite3_limit(database_->getHandle(), SQLITE_LIMIT_LENGTH, kMaxValueBytes);
     const auto is_empty = [&] {
       return database_->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
     };

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "model/files/spelling.h"
+#include "model/files/text_file.h"
 #include "model/scene/input_error.h"
 #include "testbench/commands/options.h"
 #include "testbench/system/output_file.h"
@@ -15,7 +16,8 @@ namespace phongpipe {
 namespace {
 
 int fail(int status, const std::string& message) {
-  tell("phongpipe: " + printable(message));
+  constexpr std::size_t kMaxMessageBytes = 1000;  // of a line that may quote a file
+  tell("phongpipe: " + printable(excerpt(message, kMaxMessageBytes)));
   return status;
 }
 

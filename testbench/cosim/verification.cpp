@@ -5,12 +5,12 @@
 #include <ctime>
 
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
 #include "testbench/cosim/metrics.h"
 #include "testbench/cosim/stream_checker.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace {

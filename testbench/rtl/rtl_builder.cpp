@@ -17,11 +17,12 @@
 
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
+#include "testbench/rtl/rtl_cache.h"
 #include "testbench/system/installation.h"
 #include "testbench/system/output_file.h"
 #include "testbench/system/process.h"
 #include "testbench/system/terminal.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace fs = std::filesystem;
@@ -275,6 +276,7 @@ void build_rtl(const std::vector<RtlTarget>& targets, const fs::path& sources_fo
        "-I" + installation().rtl_shim.string(), "-I" + installation().include.string(), "unity.cpp",
        (installation().libraries / "libphongpipe_verilated.a").string(), "-pthread", "-o", built},
       folder, sources);
+  seal(folder / built);
   for (std::size_t i = 0; i < targets.size(); ++i) {
     // A link of the same name may have been made by another process meanwhile.
     const fs::path link = folder / fmt::format("link{}", i);

@@ -3,29 +3,21 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <cstring>
 #include <set>
 #include <vector>
 
 #include "model/files/text_file.h"
+#include "model/scene/tool_error.h"
 #include "testbench/rtl/rtl_builder.h"
-#include "testbench/system/fnv_hash.h"
+#include "testbench/rtl/rtl_cache.h"
 #include "testbench/system/installation.h"
+#include "testbench/system/sha256.h"
 #include "testbench/system/terminal.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace fs = std::filesystem;
 namespace {
-
-fs::path user_cache() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  if (cache != nullptr && *cache != '\0') return fs::path(cache) / "phongpipe";
-  const char* home = std::getenv("HOME");
-  return (home != nullptr && *home != '\0' ? fs::path(home) / ".cache"
-                                           : fs::temp_directory_path()) /
-         "phongpipe";
-}
 
 // Where the libraries of one folder of sources are. Their names carry a hash of what they are built
 // from, so that a changed RTL is never answered with an old library.
@@ -33,22 +25,23 @@ class LibraryFiles {
  public:
   explicit LibraryFiles(const RtlBuildOptions& options)
       : sources_(options.sources.empty() ? installation().hardware : options.sources),
-        kept_(options.destination.empty() ? user_cache() : options.destination),
+        destination_(options.destination),
         signals_(options.build == RtlBuild::signals ? "signals-" : ""),
         hash_(rtl_hash(sources_)) {}
 
   const fs::path& sources() const { return sources_; }
-  // The file, which need not exist.
+  // A library that is whole, or the place where it is to be built.
   fs::path file_of(const DatapathConfiguration& configuration) const {
     const std::string name = fmt::format("pixel_datapath-{}{}-{:016x}.so", signals_,
                                          rtl_parameters_text(configuration), hash_);
     fs::path installed = installation().libraries / "rtl" / name;
-    std::error_code none;
-    return fs::exists(installed, none) ? installed : kept_ / name;
+    return is_sealed(installed) ? installed : kept() / name;
   }
+  // The folder of libraries that are built now.
+  fs::path kept() const { return destination_.empty() ? user_cache() : destination_; }
 
  private:
-  fs::path sources_, kept_;
+  fs::path sources_, destination_;
   const char* signals_;
   std::uint64_t hash_;
 };
@@ -61,33 +54,53 @@ std::uint64_t rtl_hash(const fs::path& folder) {
   for (const char* file : {"rtl_abi.h", "rtl_shim.h"}) {
     files.push_back(installation().rtl_shim / file);
   }
-  FnvHash hash;
+  std::string contents;
   for (const fs::path& file : files) {
     const std::string text = read_whole_file(file);
-    hash.add(file.filename().string());
-    hash.add(text.size());
-    hash.add(text);
+    contents += fmt::format("{}\n{}\n", file.filename().string(), text.size()) + text;
   }
-  return hash.value();
+  const Sha256 digest = sha256(contents);
+  std::uint64_t hash = 0;
+  std::memcpy(&hash, digest.data(), sizeof hash);
+  return hash;
 }
 
-void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
-                       const RtlBuildOptions& options) {
-  const LibraryFiles files(options);
+namespace {
+
+// Those that are not built, each once.
+std::vector<RtlTarget> missing_of(const std::vector<DatapathConfiguration>& configurations,
+                                  const LibraryFiles& files) {
   std::vector<RtlTarget> missing;
   std::set<fs::path> seen;
   for (const DatapathConfiguration& configuration : configurations) {
     configuration.check();
     fs::path file = files.file_of(configuration);
-    std::error_code none;
-    if (fs::exists(file, none) || !seen.insert(file).second) continue;
+    if (!seen.insert(file).second || is_sealed(file)) continue;
     missing.push_back({configuration, std::move(file)});
   }
+  return missing;
+}
+
+}  // namespace
+
+void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
+                       const RtlBuildOptions& options) {
+  const LibraryFiles files(options);
+  std::vector<RtlTarget> missing = missing_of(configurations, files);
   if (missing.empty()) return;
-  if (options.progress) {
-    options.progress(missing.size() == 1 ? rtl_parameters_text(missing.front().configuration)
-                                         : fmt::format("{} configurations", missing.size()));
-  }
+  std::vector<fs::path> targets;
+  for (const RtlTarget& target : missing) targets.push_back(target.file);
+  const auto tell = [&](const char* more) {
+    if (!options.progress) return;
+    options.progress((missing.size() == 1 ? rtl_parameters_text(missing.front().configuration)
+                                          : fmt::format("{} configurations", missing.size())) +
+                     more);
+  };
+  const BuildLock lock(files.kept(), targets,
+                       [&] { tell(", which another phongpipe builds: waiting for it"); });
+  missing = missing_of(configurations, files);
+  if (missing.empty()) return;
+  tell("");
   build_rtl(missing, files.sources(), options.build);
 }
 

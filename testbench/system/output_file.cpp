@@ -12,8 +12,8 @@
 #include <string>
 
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
 #include "testbench/system/terminal.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace fs = std::filesystem;

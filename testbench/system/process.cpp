@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,8 +13,9 @@
 #include <exception>
 #include <new>
 
+#include "model/files/fork.h"
 #include "model/scene/input_error.h"
-#include "testbench/system/tool_error.h"
+#include "model/scene/tool_error.h"
 
 namespace phongpipe {
 namespace {
@@ -30,24 +30,6 @@ Pipe make_pipe() {
     throw ToolError(fmt::format("no pipe to a new process: {}", std::strerror(errno)));
   }
   return {ends[0], ends[1]};
-}
-
-pid_t fork_or_throw() {
-  std::signal(SIGCHLD, SIG_DFL);  // where it is ignored, there is no exit status
-  std::fflush(nullptr);           // or the child would print it again
-  const pid_t process = fork();
-  if (process < 0) {
-    throw ToolError(
-        fmt::format("no new process could be started, memory or processes are short: {}",
-                    std::strerror(errno)));
-  }
-  return process;
-}
-
-// In a child: `signal` comes when the parent ends, or we end now if it has ended already.
-void end_with_parent(pid_t parent, int signal) {
-  prctl(PR_SET_PDEATHSIG, signal);
-  if (getppid() != parent) _exit(1);
 }
 
 std::string read_to_end(int file) {
@@ -74,13 +56,6 @@ void write_all(int file, const std::string& text) {
       return;
     }
   }
-}
-
-int wait_for(pid_t process) {
-  int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
 }
 
 int exit_status(int wait_status) {

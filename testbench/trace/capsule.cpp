@@ -37,9 +37,12 @@ std::string digest_of(std::string_view text) {
 
 // Hash of the file of this program.
 std::uint64_t program_hash() {
-  FnvHash hash;
-  hash.add(read_whole_file("/proc/self/exe"));
-  return hash.value();
+  static const std::uint64_t value = [] {
+    FnvHash hash;
+    hash.add(read_whole_file("/proc/self/exe"));
+    return hash.value();
+  }();
+  return value;
 }
 
 // Settings of the hardware as a hardware file has them.
@@ -124,7 +127,7 @@ std::string capsule_text(const Scene& scene, const VerificationResult& result) {
 }
 
 Capsule read_capsule(const std::filesystem::path& file, bool anyway) {
-  const std::string text = read_whole_file(file);
+  const std::string text = read_whole_file(file, kMaxTomlBytes);
   const std::size_t at = text.find(kDigest);
   const std::size_t begin = text.find('\n', at);
   if (at == std::string::npos || begin == std::string::npos) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "model/scene/tool_error.h"
 #include "testbench/system/output_file.h"
-#include "testbench/system/tool_error.h"
 #include "testbench/trace/capsule.h"
 #include "testbench/trace/views.h"
 

@@ -8,12 +8,12 @@
 
 #include "model/fixed/depth_cue.h"
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
 #include "model/shading/screen_interpolator.h"
 #include "testbench/accuracy/accuracy.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
 #include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace {

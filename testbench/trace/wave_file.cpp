@@ -1,18 +1,23 @@
 #include "testbench/trace/wave_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtkwave/fstapi.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <stdexcept>
 #include <unordered_map>
 
+#include "model/files/fork.h"
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
 #include "testbench/system/output_file.h"
+#include "testbench/system/process.h"
 #include "testbench/system/terminal.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace fs = std::filesystem;
@@ -310,52 +315,144 @@ class VcdParser {
   std::unordered_map<std::string, std::vector<std::size_t>> places_;  // of variables, by code
 };
 
-// False if it is no FST file.
-bool read_fst(const fs::path& file, WaveReader& reader, const WaveReader::Declare& declare,
-              const WaveReader::Visit& visit) {
+// What the child sends of an FST file: variables, then changes, then that it has read it to the
+// end.
+constexpr char kVariable = 'v', kChange = 'c', kEnd = 'e';
+
+template <typename Number>
+void append_number(std::string& bytes, Number number) {
+  const char* const at = reinterpret_cast<const char*>(&number);
+  bytes.append(at, sizeof number);
+}
+template <typename Number>
+Number take_number(std::string_view& bytes) {
+  Number number{};
+  if (bytes.size() < sizeof number) throw std::runtime_error("a message that was cut");
+  std::memcpy(&number, bytes.data(), sizeof number);
+  bytes.remove_prefix(sizeof number);
+  return number;
+}
+void append_text(std::string& bytes, std::string_view text) {
+  append_number(bytes, std::uint64_t{text.size()});
+  bytes += text;
+}
+std::string take_text(std::string_view& bytes) {
+  const auto size = take_number<std::uint64_t>(bytes);
+  if (size > bytes.size()) throw std::runtime_error("a message that was cut");
+  std::string text(bytes.substr(0, size));
+  bytes.remove_prefix(size);
+  return text;
+}
+
+// Collects changes, for a message each would take long.
+class ChangeSender {
+ public:
+  explicit ChangeSender(const Worker::Send& send) : send_(send) {}
+
+  void add(std::uint64_t ps, std::size_t index, std::string_view value) {
+    append_number(batch_, ps);
+    append_number(batch_, std::uint64_t{index});
+    append_text(batch_, value);
+    if (batch_.size() > kBatchBytes) flush();
+  }
+  void flush() {
+    send_(kChange + batch_);
+    batch_.clear();
+  }
+
+ private:
+  static constexpr std::size_t kBatchBytes = 65536;
+  const Worker::Send& send_;
+  std::string batch_;
+};
+
+// In a child.
+void send_fst(const fs::path& file, const Worker::Send& send) {
   const std::unique_ptr<void, void (*)(void*)> reading(fstReaderOpen(file.c_str()), fstReaderClose);
   void* const fst = reading.get();
-  if (fst == nullptr) return false;
+  if (fst == nullptr) return;
   std::vector<std::string> scopes;
   std::unordered_map<fstHandle, std::vector<std::size_t>> places;
+  std::size_t count = 0;
   while (const fstHier* const item = fstReaderIterateHier(fst)) {
     if (item->htyp == FST_HT_SCOPE) {
       scopes.emplace_back(item->u.scope.name, item->u.scope.name_length);
     } else if (item->htyp == FST_HT_UPSCOPE) {
+      if (scopes.empty()) return;
       scopes.pop_back();
     } else if (item->htyp == FST_HT_VAR) {
-      std::string scope;
-      for (const std::string& part : scopes) scope += scope.empty() ? part : "." + part;
-      places[item->u.var.handle].push_back(reader.variables.size());
-      reader.variables.push_back(
-          variable_of(scope, std::string(item->u.var.name, item->u.var.name_length),
-                      static_cast<int>(item->u.var.length), item->u.var.typ == FST_VT_VCD_REAL));
+      places[item->u.var.handle].push_back(count++);
+      std::string message(1, kVariable);
+      append_number(message, std::uint64_t{item->u.var.length});
+      message += item->u.var.typ == FST_VT_VCD_REAL ? '\1' : '\0';
+      append_text(message, fmt::format("{}", fmt::join(scopes, ".")));
+      append_text(message, std::string_view(item->u.var.name, item->u.var.name_length));
+      send(message);
     }
   }
-  declare(reader.variables);
   struct Context {
     const std::unordered_map<fstHandle, std::vector<std::size_t>>& places;
-    const WaveReader::Visit& visit;
+    ChangeSender changes;
     double ps;
   };
   // A power of ten of seconds.
   const auto exponent = static_cast<double>(fstReaderGetTimescale(fst));
-  const double ps = std::pow(10, exponent + 12);
-  Context context{places, visit, ps};
+  Context context{places, ChangeSender(send), std::pow(10, exponent + 12)};
+  context.changes.flush();  // also of a file without any
   fstReaderSetFacProcessMaskAll(fst);
   fstReaderIterBlocks(
       fst,
       [](void* user, std::uint64_t time, fstHandle handle, const unsigned char* value) {
-        const Context& c = *static_cast<Context*>(user);
+        Context& c = *static_cast<Context*>(user);
         const auto found = c.places.find(handle);
         if (found == c.places.end()) return;
         for (const std::size_t index : found->second) {
-          c.visit(static_cast<std::uint64_t>(static_cast<double>(time) * c.ps), index,
-                  reinterpret_cast<const char*>(value));
+          c.changes.add(static_cast<std::uint64_t>(static_cast<double>(time) * c.ps), index,
+                        reinterpret_cast<const char*>(value));
         }
       },
       &context, nullptr);
-  return true;
+  context.changes.flush();
+  send(std::string(1, kEnd));
+}
+
+// False if it is no FST file. The library trusts what it reads, so that it reads in a child, with
+// limits.
+bool read_fst(const fs::path& file, WaveReader& reader, const WaveReader::Declare& declare,
+              const WaveReader::Visit& visit) {
+  constexpr std::size_t kMemoryBytes = std::size_t{384} << 20;
+  const auto seconds = static_cast<unsigned>(1 + (fs::file_size(file) >> 18U));
+  Worker child([&](const Worker::Send& send) {
+    limit_memory(kMemoryBytes);
+    limit_processor_time(seconds);
+    send_fst(file, send);
+  });
+  bool declared = false, complete = false;
+  const auto take = [&](std::string_view message) {
+    const char kind = take_number<char>(message);
+    if (kind == kVariable) {
+      const auto width = take_number<std::uint64_t>(message);
+      const bool real = take_number<char>(message) != 0;
+      const std::string scope = take_text(message);
+      reader.variables.push_back(
+          variable_of(scope, take_text(message), static_cast<int>(width), real));
+      return;
+    }
+    if (!declared) declare(reader.variables);
+    declared = true;
+    complete = complete || kind == kEnd;
+    while (!message.empty()) {
+      const auto ps = take_number<std::uint64_t>(message);
+      const auto index = take_number<std::uint64_t>(message);
+      const std::string value = take_text(message);
+      if (index >= reader.variables.size()) throw std::runtime_error("an unknown variable");
+      visit(ps, index, value);
+    }
+  };
+  while (!child.ended()) {
+    for (const std::string& message : child.receive()) take(message);
+  }
+  return complete && child.failure().empty();
 }
 
 }  // namespace

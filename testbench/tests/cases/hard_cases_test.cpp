@@ -1,6 +1,8 @@
 // The corpus of hard cases: each holds in model, SystemC, RTL and every shading method, and each
 // needs the guard that it names.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -72,7 +74,7 @@ shininess = 20
 )";
 
 std::string write_case(const std::string& head, const std::string& scene = kEasy) {
-  std::string file = testing::TempDir() + "/hard-case.toml";
+  std::string file = testing::TempDir() + fmt::format("/hard-case-{}.toml", getpid());
   std::ofstream(file) << head << scene;
   return file;
 }

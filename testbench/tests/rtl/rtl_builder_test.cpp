@@ -12,8 +12,9 @@
 
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
+#include "testbench/rtl/rtl_cache.h"
 #include "testbench/rtl/rtl_library.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace {
@@ -56,6 +57,14 @@ class RtlBuilder : public ::testing::Test {
     fs::permissions(folder_ / "tools" / tool, fs::perms(0755));
     setenv("PATH", ((folder_ / "tools").string() + ":" + search_path_).c_str(), 1);
   }
+  // Besides those that begin with a dot.
+  static int files_in(const fs::path& folder) {
+    int count = 0;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      count += entry.path().filename().string().front() != '.';
+    }
+    return count;
+  }
   void build() const { build_rtl({{FrameConfiguration(), library()}}, rtl()); }
   // One line, and nothing stays behind.
   template <typename Error = ToolError>
@@ -90,27 +99,26 @@ TEST_F(RtlBuilder, AnyPathsWillDo) {
   void* const datapath = library.interface().create();
   EXPECT_NE(datapath, nullptr);
   library.interface().destroy(datapath);
-  EXPECT_EQ(std::distance(fs::directory_iterator(kept), fs::directory_iterator()), 1)
-      << "only the library stays";
+  EXPECT_EQ(files_in(kept), 1) << "only the library stays";
 }
 
-// With tools that leave an empty file, which cannot be loaded.
+// With tools that leave a file that cannot be loaded.
 TEST_F(RtlBuilder, ALibraryIsNamedByTheContentsAndNamesOfItsSources) {
   pretend("verilator", "exit 0");
-  pretend("g++", "touch pixel_datapath.so");
+  pretend("g++", "echo none > pixel_datapath.so");
   RtlBuildOptions options;
   options.destination = cache();
   const auto libraries_after_loading_from = [&](const fs::path& sources) {
     options.sources = sources;
     try {
       const RtlLibrary library(FrameConfiguration(), options);
-      ADD_FAILURE() << "an empty library was loaded";
+      ADD_FAILURE() << "it was loaded";
     } catch (const ToolError& error) {
       EXPECT_NE(std::string(error.what()).find("remove the file to have it built anew"),
                 std::string::npos)
           << error.what();
     }
-    return std::distance(fs::directory_iterator(cache()), fs::directory_iterator());
+    return files_in(cache());
   };
   std::ofstream(rtl() / "color_sum.sv", std::ios::app) << "//\n";  // not what is installed
   EXPECT_EQ(libraries_after_loading_from(rtl()), 1);
@@ -208,6 +216,73 @@ TEST_F(RtlBuilder, WhatAKilledBuildLeftBehindIsSwept) {
   EXPECT_FALSE(fs::exists(abandoned));
   EXPECT_TRUE(fs::exists(in_use / "inner"));
   EXPECT_TRUE(fs::exists(elsewhere / "inner"));
+}
+
+TEST_F(RtlBuilder, ADamagedLibraryIsBuiltAgain) {
+  RtlBuildOptions options;
+  options.sources = rtl();
+  options.destination = cache();
+  std::ofstream(rtl() / "color_sum.sv", std::ios::app) << "//\n";  // not what is installed
+  const fs::path file = RtlLibrary(FrameConfiguration(), options).file();
+  const std::string whole = read_whole_file(file);
+  std::string changed = whole;
+  changed[whole.size() / 2] ^= 1;
+  for (const std::string& damaged : {whole.substr(0, whole.size() / 2),
+                                     whole.substr(0, whole.size() - 1), changed, whole + "x"}) {
+    // A new file: the library may still be mapped.
+    fs::remove(file);
+    std::ofstream(file, std::ios::binary) << damaged;
+    EXPECT_FALSE(is_sealed(file));
+    EXPECT_EQ(RtlLibrary(FrameConfiguration(), options).file(), file);
+    EXPECT_TRUE(is_sealed(file));
+  }
+}
+
+TEST_F(RtlBuilder, WhoNeedsTheSameRtlAtOnceBuildsItOnce) {
+  pretend("g++",
+          fmt::format("echo built >> '{}'\nexec /usr/bin/g++ \"$@\"", (folder_ / "log").string()));
+  RtlBuildOptions options;
+  options.sources = rtl();
+  options.destination = cache();
+  std::ofstream(rtl() / "color_sum.sv", std::ios::app) << "//\n";  // not what is installed
+  std::vector<pid_t> others;
+  for (int i = 0; i < 3; ++i) {
+    others.push_back(fork());
+    if (others.back() != 0) continue;
+    try {
+      const RtlLibrary library(FrameConfiguration(), options);
+      _exit(0);
+    } catch (...) {
+      _exit(1);
+    }
+  }
+  for (const pid_t other : others) {
+    int status = -1;
+    waitpid(other, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(read_whole_file(folder_ / "log"), "built\n");
+}
+
+TEST_F(RtlBuilder, TheCacheBelongsToTheUserAlone) {
+  setenv("XDG_CACHE_HOME", (folder_ / "home").c_str(), 1);
+  const auto mode = [](const fs::path& folder) {
+    return static_cast<unsigned>(fs::status(folder).permissions());
+  };
+  EXPECT_EQ(user_cache(), folder_ / "home" / "phongpipe");
+  EXPECT_EQ(mode(user_cache()), 0700U);
+  fs::permissions(user_cache(), fs::perms(0777));
+  EXPECT_EQ(mode(user_cache()), 0700U) << "made by a version that left it open";
+  if (geteuid() == 0) {  // only root can give a folder away
+    ASSERT_EQ(chown(user_cache().c_str(), 12345, 12345), 0);
+    EXPECT_THROW(user_cache(), InputError);
+  }
+  unsetenv("XDG_CACHE_HOME");
+  const char* const home = std::getenv("HOME");
+  const std::string before = home == nullptr ? "" : home;
+  unsetenv("HOME");
+  EXPECT_NE(user_cache().parent_path().parent_path(), fs::temp_directory_path());
+  setenv("HOME", before.c_str(), 1);
 }
 
 }  // namespace

@@ -17,8 +17,8 @@
 #include <sstream>
 
 #include "model/scene/input_error.h"
+#include "model/scene/tool_error.h"
 #include "testbench/system/process.h"
-#include "testbench/system/tool_error.h"
 
 namespace phongpipe {
 namespace {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "model/scene/input_error.h"
-#include "testbench/system/tool_error.h"
+#include "model/scene/tool_error.h"
 
 namespace phongpipe {
 namespace {

@@ -1,0 +1,151 @@
+#include "model/files/meshes/mtl_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "model/files/meshes/statements.h"
+#include "model/scene/input_error.h"
+
+namespace phongpipe {
+namespace {
+
+// Properties without effect on Phong shading, or that only ray tracing or physically based shading
+// has.
+constexpr std::array<std::string_view, 13> kWithoutEffect = {
+    "illum", "Ni",     "Tf",     "sharpness",      "Pr", "Pm", "Ps", "Pc", "Pcr",
+    "aniso", "anisor", "xalpha", "interpolateMode"};
+
+// Properties that would change the picture unless they have this value.
+struct LeftOut {
+  std::string_view keyword;
+  double neutral;
+};
+constexpr std::array<LeftOut, 3> kLeftOut = {{{"Ke", 0}, {"d", 1}, {"Tr", 0}}};
+constexpr std::array<std::string_view, 6> kTextures = {"bump", "disp", "decal",
+                                                       "refl", "norm", "texopt"};
+
+class MtlReader {
+ public:
+  MtlReader(const std::filesystem::path& file, std::vector<std::string>& notes)
+      : file_(file), notes_(notes) {}
+
+  std::vector<Material> run(std::string_view text) {
+    for_each_statement(text, [this](const Statement& statement) {
+      line_ = statement.line;
+      read(statement);
+    });
+    if (!left_out_.empty()) {
+      notes_.push_back(fmt::format("{}: left out: {}", file_.string(), fmt::join(left_out_, ", ")));
+    }
+    return std::move(materials_);
+  }
+
+ private:
+  void read(const Statement& statement) {
+    if (statement.keyword == "newmtl") return begin(statement.rest);
+    if (materials_.empty()) {
+      fail(fmt::format("'{}' stands before the first newmtl", excerpt(statement.keyword)));
+    }
+    Material& material = materials_.back();
+    if (statement.keyword == "Ka") {
+      material.ambient = color(statement);
+    } else if (statement.keyword == "Kd") {
+      material.diffuse = color(statement);
+    } else if (statement.keyword == "Ks") {
+      material.specular = color(statement);
+    } else if (statement.keyword == "Ns") {
+      material.shininess = shininess(statement);
+    } else {
+      leave_out(statement);
+    }
+  }
+
+  void begin(std::string_view name) {
+    if (name.empty()) fail("newmtl needs a name");
+    if (!names_.emplace(name).second) {
+      fail(fmt::format("material '{}' is defined twice", excerpt(name)));
+    }
+    materials_.emplace_back();
+    materials_.back().name = name;
+  }
+
+  double number(std::string_view keyword, std::string_view word) const {
+    const std::optional<double> value = parse_number(word);
+    if (!value) fail(fmt::format("{}: '{}' is not a finite number", keyword, excerpt(word)));
+    return *value;
+  }
+
+  // r g b, or one number for all three.
+  Color color(const Statement& statement) const {
+    const auto& words = statement.values;
+    if (!words.empty() && (words[0] == "spectral" || words[0] == "xyz")) {
+      fail(fmt::format("{} {} is not supported, give red, green and blue", statement.keyword,
+                       words[0]));
+    }
+    if (words.size() != 3 && words.size() != 1) {
+      fail(fmt::format("{} needs one number or three, has {}", statement.keyword, words.size()));
+    }
+    Color result;
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      result[i] =
+          number(statement.keyword, words[words.size() == 1 ? 0 : static_cast<std::size_t>(i)]);
+    }
+    if (!((result >= 0).all() && (result <= 1).all())) {
+      fail(fmt::format("{} is [{}, {}, {}], must be from 0 to 1", statement.keyword, result[0],
+                       result[1], result[2]));
+    }
+    return result;
+  }
+
+  double shininess(const Statement& statement) const {
+    if (statement.values.size() != 1) {
+      fail(fmt::format("Ns needs one number, has {}", statement.values.size()));
+    }
+    const double value = number("Ns", statement.values[0]);
+    if (value < 0) fail(fmt::format("Ns is {}, must be at least 0", value));
+    return value;
+  }
+
+  void leave_out(const Statement& statement) {
+    const std::string_view keyword = statement.keyword;
+    const auto is = [&](std::string_view known) { return known == keyword; };
+    if (std::any_of(kWithoutEffect.begin(), kWithoutEffect.end(), is)) return;
+    for (const LeftOut& property : kLeftOut) {
+      if (!is(property.keyword)) continue;
+      const bool neutral = std::all_of(
+          statement.values.begin(), statement.values.end(),
+          [&](std::string_view word) { return parse_number(word) == property.neutral; });
+      if (!neutral) left_out_.emplace(keyword);
+      return;
+    }
+    if (keyword.substr(0, 4) == "map_" || std::any_of(kTextures.begin(), kTextures.end(), is)) {
+      left_out_.emplace("textures");
+      return;
+    }
+    fail(fmt::format("'{}' is not a property of a material", excerpt(keyword)));
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(file_, line_, message);
+  }
+
+  const std::filesystem::path& file_;
+  std::vector<std::string>& notes_;
+  unsigned line_ = 0;
+  std::vector<Material> materials_;
+  std::set<std::string, std::less<>> names_;
+  std::set<std::string> left_out_;
+};
+
+}  // namespace
+
+std::vector<Material> read_mtl(const std::filesystem::path& file, std::string_view text,
+                               std::vector<std::string>& notes) {
+  return MtlReader(file, notes).run(text);
+}
+
+}  // namespace phongpipe

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# fuzz.sh SECONDS [TARGET…]: fuzzes what reads files, each target of testbench/fuzz/ for SECONDS, two at
+# a time, under the address and undefined-behaviour sanitizers. Ends with a table: executions, edges
+# covered, findings. Inputs that were worth keeping are added to build-sanitized/corpus/TARGET.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+if [ $# -lt 1 ]; then
+  sed -n '2,4s/^# //p' "$0" >&2
+  exit 2
+fi
+seconds=$1
+shift
+scripts/install.sh fuzz
+folder=build-sanitized
+scripts/build_sanitized.sh fuzz_targets phongpipe
+targets=("$@")
+if [ ${#targets[@]} -eq 0 ]; then
+  for source in testbench/fuzz/*_fuzz.cpp; do targets+=("$(basename "$source" _fuzz.cpp)"); done
+fi
+
+declare -A shipped=([scene]=testbench/scenes [hardware]=hw/presets [technology]=hw/technology
+                    [plan]=testbench/sweeps)
+declare -A dictionary=([scene]=toml [hardware]=toml [technology]=toml [plan]=toml [capsule]=toml)
+mkdir -p "$folder/corpus/database" "$folder/findings"
+if [ ! -f "$folder/corpus/database/runs.db" ]; then
+  "$folder/bin/phongpipe" sweep sphere --vary rom_address_bits=6:7 --verify sampled \
+    -o "$folder/corpus/database/runs.db" >/dev/null
+fi
+
+fuzz() {
+  local target=$1 corpora=("$folder/corpus/$1")
+  mkdir -p "${corpora[0]}"
+  for seeds in "testbench/fuzz/corpus/$target" ${2:+"$2"}; do
+    if [ -d "$seeds" ]; then corpora+=("$seeds"); fi
+  done
+  local words=testbench/fuzz/dictionaries/$3.dict options=()
+  if [ -f "$words" ]; then options+=("-dict=$words"); fi
+  "$folder/bin/${target}_fuzz" "${corpora[@]}" "${options[@]}" -max_total_time="$seconds" \
+    -timeout=10 -rss_limit_mb=1024 -max_len=65536 -artifact_prefix="$folder/findings/$target-" \
+    -print_final_stats=1 >"$folder/findings/$target.log" 2>&1
+}
+failed=0
+running=()
+for target in "${targets[@]}"; do
+  fuzz "$target" "${shipped[$target]:-}" "${dictionary[$target]:-$target}" &
+  running+=($!)
+  if [ ${#running[@]} -eq "$(nproc)" ]; then
+    wait "${running[0]}" || failed=1
+    running=("${running[@]:1}")
+  fi
+done
+for process in "${running[@]}"; do wait "$process" || failed=1; done
+
+printf '%-12s %12s %8s %9s\n' target executions edges findings
+for target in "${targets[@]}"; do
+  log=$folder/findings/$target.log
+  printf '%-12s %12s %8s %9s\n' "$target" \
+    "$(sed -n 's/^stat::number_of_executed_units: *//p' "$log")" \
+    "$(grep -o 'cov: [0-9]*' "$log" | tail -n 1 | cut -d' ' -f2)" \
+    "$(find "$folder/findings" -name "$target-*" | wc -l)"
+done
+if [ $failed -ne 0 ]; then
+  echo "fuzz.sh: a finding, or a target that did not start; see $folder/findings/" >&2
+  exit 1
+fi

@@ -1,0 +1,7 @@
+#include "testbench/fuzz/fuzz.h"
+
+using namespace phongpipe;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return survive_mesh(read_stl, text_of(data, size));
+}
