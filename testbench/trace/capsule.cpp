@@ -120,7 +120,10 @@ std::string capsule_text(const Scene& scene, const VerificationResult& result) {
                          {"hardware", hardware_toml(result.hardware)},
                          {"scene", scene_toml(scene)}};
   std::ostringstream text;
-  text << root << "\n";
+  // A literal string of several lines could not hold another, such as the rows of triangles.
+  constexpr toml::format_flags kFlags =
+      toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings;
+  text << toml::toml_formatter(root, kFlags) << "\n";
   return fmt::format(
       "# A divergence found by phongpipe; `phongpipe replay` shows it again.\n{}\"{}\"\n{}",
       kDigest, digest_of(text.str()), text.str());

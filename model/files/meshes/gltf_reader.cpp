@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "model/files/meshes/gltf_document.h"
@@ -270,7 +271,7 @@ class GltfReader {
     }
     const std::size_t count = imported_.mesh.positions.size() - first;
     for (const double index : document_.accessor(index_accessor, "SCALAR", 3 * kMaxMeshTriangles)) {
-      if (!(index >= 0 && index < static_cast<double>(count))) {
+      if (!(index >= 0 && index < static_cast<double>(count) && index == std::floor(index))) {
         throw MeshFault(fmt::format("an index is {}, but there are {} vertices", index, count));
       }
       corners.push_back(static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(index));

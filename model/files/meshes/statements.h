@@ -1,6 +1,7 @@
 // The lines of OBJ and MTL files.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,37 +26,40 @@ void for_each_statement(std::string_view text, Visit visit) {
     text.remove_prefix(kByteOrderMark.size());
   }
   LineReader reader(text);
-  std::string joined;
   Statement statement;
-  for (std::string_view line; reader.next(line);) {
-    if (!joined.empty() || (!line.empty() && line.back() == '\\')) {
-      joined += line;
-      if (joined.back() == '\\') {
-        joined.back() = ' ';
-        continue;
-      }
-      line = joined;
-    }
+  const auto take = [&](std::string_view line) {
     line = trimmed(line);
     const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
     statement.line = reader.number();
     statement.keyword = line.substr(0, end);
-    statement.rest = line.substr(end);
     // A name may contain the sign, as in "steel#2".
     const bool named = statement.keyword == "newmtl" || statement.keyword == "usemtl" ||
                        statement.keyword == "mtllib";
-    for (std::size_t at = line.find('#'); at != std::string_view::npos;
-         at = line.find('#', at + 1)) {
-      if (named && line[at - 1] != ' ' && line[at - 1] != '\t') continue;
-      statement.keyword = line.substr(0, std::min(at, end));
-      statement.rest = line.substr(std::min(at, end), at - std::min(at, end));
-      break;
+    std::size_t comment = line.find('#');
+    while (named && comment != std::string_view::npos && line[comment - 1] != ' ' &&
+           line[comment - 1] != '\t') {
+      comment = line.find('#', comment + 1);
     }
-    statement.rest = trimmed(statement.rest);
+    line = line.substr(0, comment);
+    statement.keyword = line.substr(0, end);
+    statement.rest = trimmed(line.substr(statement.keyword.size()));
     words(statement.rest, statement.values);
     if (!statement.keyword.empty()) visit(statement);
+  };
+  std::string joined;
+  for (std::string_view line; reader.next(line);) {
+    const bool goes_on = !line.empty() && line.back() == '\\';
+    if (goes_on) line.remove_suffix(1);
+    if (!goes_on && joined.empty()) {
+      take(line);
+      continue;
+    }
+    joined.append(line).push_back(' ');
+    if (goes_on) continue;
+    take(joined);
     joined.clear();
   }
+  take(joined);  // where the last line goes on
 }
 
 }  // namespace phongpipe

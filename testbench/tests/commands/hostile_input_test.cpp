@@ -274,6 +274,7 @@ TEST_F(HostileInput, SizesAreLimited) {
 TEST_F(HostileInput, PicturesAreRight) {
   expect_same("a.obj", "v .0 .0 0.\nv 1 0 0\n\tv +0 1e0 0\n  f 1 2 3\n", kTriangle);
   expect_same("a.obj", "\xEF\xBB\xBFv 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 001 +2 -1\r\n", kTriangle);
+  expect_same("a.obj", kPoints + "f 1 \\\n2 \\\n3\\", kTriangle);
   expect_same("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv .5 .25 0\nv 0 1 0\nf 1 2 3 4 5\n",
               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv .5 .25 0\nv 0 1 0\nf 1 2 4\nf 2 3 4\nf 1 4 5\n");
   const auto colored = [&](const std::string& mtl) {

@@ -118,6 +118,12 @@ TEST_F(Capsules, KeepEverything) {
 }
 
 // As a capsule that another build of the program wrote, before it had all of today's options.
+TEST_F(Capsules, KeepRowsOfTrianglesWhichAreAStringOfSeveralLines) {
+  const Scene scene = load_named_scene("screen-triangles", {});
+  write_text(file_, capsule_text(scene, result_));
+  expect_same_geometry(scene, read_capsule(file_, false).scene);
+}
+
 TEST_F(Capsules, OfOtherProgramsAreReadAnyway) {
   std::string text = read_whole_file(file_);
   for (const char* key : {"program_hash", "max-error"}) {
@@ -142,9 +148,9 @@ TEST_F(Capsules, ChangedByHandAreRefused) {
   EXPECT_THROW(read_capsule(file_, true), InputError) << "such a scene there is not";
   text = read_whole_file(file_);
   text.replace(text.find("shininesS"), 9, "shininess");
-  const std::string seed = "seed = '9'";
+  const std::string seed = "seed = \"9\"";
   ASSERT_NE(text.find(seed), std::string::npos) << text;
-  text.replace(text.find(seed), seed.size(), "seed = '8'");
+  text.replace(text.find(seed), seed.size(), "seed = \"8\"");
   write_text(file_, text);
   EXPECT_THROW(read_capsule(file_, false), InputError);
   EXPECT_EQ(read_capsule(file_, true).options.seed, 8U);
