@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "model/files/text_file.h"
+#include "model/scene/input_error.h"
 
 namespace phongpipe {
 namespace {
@@ -137,7 +138,7 @@ bool flag(const Json& object, const char* key) {
 }  // namespace
 
 GltfDocument::GltfDocument(const MeshSource& source) {
-  parse(source.bytes.substr(0, 4) == "glTF" ? glb_chunks(source.bytes) : source.bytes);
+  parse(source.file, source.bytes.substr(0, 4) == "glTF" ? glb_chunks(source.bytes) : source.bytes);
   const auto asset = root_.find("asset");
   if (asset == root_.end() || !asset->is_object()) {
     throw MeshFault("it has no 'asset', so it is not glTF 2.0");
@@ -175,7 +176,7 @@ std::string_view GltfDocument::glb_chunks(std::string_view bytes) {
   return json;
 }
 
-void GltfDocument::parse(std::string_view json) {
+void GltfDocument::parse(const std::filesystem::path& file, std::string_view json) {
   try {
     root_ = Json::parse(json.begin(), json.end(), [](int depth, Json::parse_event_t, Json&) {
       if (depth > kMaxDepth) {
@@ -183,12 +184,13 @@ void GltfDocument::parse(std::string_view json) {
       }
       return true;
     });
-  } catch (const Json::parse_error& error) {
-    const auto read = std::min(error.byte, json.size());
-    throw MeshFault(
-        fmt::format("JSON error in line {}: {}",
-                    1 + std::count(json.begin(), json.begin() + static_cast<long>(read), '\n'),
-                    excerpt(error.what(), 200)));
+  } catch (const Json::exception& error) {
+    const auto* const place = dynamic_cast<const Json::parse_error*>(&error);
+    const auto read =
+        static_cast<std::ptrdiff_t>(place == nullptr ? 0 : std::min(place->byte, json.size()));
+    throw InputError(file,
+                     static_cast<unsigned>(1 + std::count(json.begin(), json.begin() + read, '\n')),
+                     fmt::format("no JSON: {}", excerpt(error.what(), 200)));
   }
   if (!root_.is_object()) throw MeshFault("its JSON is not an object");
 }

@@ -46,7 +46,7 @@ class GltfDocument {
   };
 
   std::string_view glb_chunks(std::string_view bytes);
-  void parse(std::string_view json);
+  void parse(const std::filesystem::path& file, std::string_view json);
   void read_buffers(const MeshSource& source);
   std::string buffer_data(const MeshSource& source, const Json& buffer);
   std::vector<double> read_view(const Json& owner, const Layout& layout, bool normalized) const;
