@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <new>
 
 #include "model/files/fork.h"
 #include "model/scene/tool_error.h"
@@ -20,11 +21,7 @@ namespace phongpipe {
 namespace {
 
 constexpr time_t kPatienceSeconds = 60;
-
-void limit(__rlimit_resource resource, rlim_t value) {
-  const rlimit both = {value, value};
-  setrlimit(resource, &both);
-}
+constexpr int kNoMemory = 99;  // exit status
 
 // The system calls that C++ code needs to compute, to talk over a socket that it has, and to end.
 constexpr std::array kAllowedCalls = {
@@ -54,10 +51,10 @@ void confine(const ChildLimits& limits) {
   limit_memory(limits.memory_bytes);
   limit_processor_time(limits.processor_seconds);
   close_range(1, ~0U, 0);  // 0 is the channel
-  limit(RLIMIT_NOFILE, 0);
-  limit(RLIMIT_FSIZE, 0);
-  limit(RLIMIT_NPROC, 0);
-  limit(RLIMIT_CORE, 0);
+  for (const int resource : {RLIMIT_NOFILE, RLIMIT_FSIZE, RLIMIT_NPROC, RLIMIT_CORE}) {
+    set_limit(resource, 0, 0);
+  }
+  std::set_new_handler([] { _exit(kNoMemory); });
   filter_system_calls();
 }
 
@@ -118,7 +115,7 @@ void Channel::receive(void* bytes, std::size_t size) const {
 
 ConfinedChild::ConfinedChild(const std::function<void(const Channel&)>& work,
                              const ChildLimits& limits)
-    : processor_seconds_(limits.processor_seconds) {
+    : memory_bytes_(limits.memory_bytes), processor_seconds_(limits.processor_seconds) {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     throw ToolError(fmt::format("no connection to a new process: {}", std::strerror(errno)));
@@ -149,7 +146,9 @@ ConfinedChild::~ConfinedChild() {
 
 void ConfinedChild::allow_processor_seconds(unsigned seconds) {
   processor_seconds_ = std::min(seconds, kMostProcessorSeconds);
-  const rlimit limit = {processor_seconds_, kMostProcessorSeconds};
+  rlimit limit{};
+  prlimit(process_, RLIMIT_CPU, nullptr, &limit);
+  limit.rlim_cur = std::min<rlim_t>(processor_seconds_, limit.rlim_max);
   prlimit(process_, RLIMIT_CPU, &limit, nullptr);
 }
 
@@ -173,6 +172,9 @@ std::string ConfinedChild::ending() {
   }
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) {
     return fmt::format("took more than {} s of processor time", processor_seconds_);
+  }
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kNoMemory) {
+    return fmt::format("needs more than {} MiB of memory", memory_bytes_ >> 20U);
   }
   return WIFSIGNALED(status)
              ? fmt::format("died of signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)))

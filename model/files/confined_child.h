@@ -62,6 +62,7 @@ class ConfinedChild {
   int socket_ = -1;
   Channel channel_{-1};
   pid_t process_ = -1;
+  std::size_t memory_bytes_ = 0;
   unsigned processor_seconds_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 
@@ -33,19 +34,26 @@ void end_with_parent(pid_t parent, int signal) {
   if (getppid() != parent) _exit(1);
 }
 
+void set_limit(int resource, std::uint64_t soft, std::uint64_t hard) {
+  const auto which = static_cast<__rlimit_resource>(resource);
+  rlimit limit{};
+  getrlimit(which, &limit);
+  limit.rlim_max = std::min<rlim_t>(limit.rlim_max, hard);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, soft);
+  setrlimit(which, &limit);
+}
+
 void limit_memory(std::size_t bytes) {
   unsigned long long pages = 0;
   std::FILE* const file = std::fopen("/proc/self/statm", "re");
   if (file == nullptr || std::fscanf(file, "%llu", &pages) != 1) pages = 0;
   if (file != nullptr) std::fclose(file);
   const rlim_t address_space = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + bytes;
-  const rlimit limit = {address_space, address_space};
-  setrlimit(RLIMIT_AS, &limit);
+  set_limit(RLIMIT_AS, address_space, address_space);
 }
 
 void limit_processor_time(unsigned seconds) {
-  const rlimit limit = {std::min(seconds, kMostProcessorSeconds), kMostProcessorSeconds};
-  setrlimit(RLIMIT_CPU, &limit);
+  set_limit(RLIMIT_CPU, std::min(seconds, kMostProcessorSeconds), kMostProcessorSeconds);
 }
 
 int wait_for(pid_t process) {

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <cstdint>
 
 namespace phongpipe {
 
@@ -13,6 +14,9 @@ pid_t fork_or_throw();
 
 // In a child: `signal` comes when the parent ends, or we end now if it has ended already.
 void end_with_parent(pid_t parent, int signal);
+
+// setrlimit(); what the parent was allowed is the most.
+void set_limit(int resource, std::uint64_t soft, std::uint64_t hard);
 
 // In a child that handles what nobody vouches for: bytes of memory beyond those that it has, and
 // seconds of processor time, after which SIGXCPU ends it.

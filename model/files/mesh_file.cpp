@@ -79,7 +79,7 @@ const char* why_generated(FileNormals normals) {
     case FileNormals::missing:
       return "no normals";
     case FileNormals::partly_missing:
-      return "some faces have no normals";
+      return "some vertices have no normals";
     case FileNormals::of_facets:
       // Many programs leave them zero, and a surface shaded with them is flat.
       return "only facet normals";
@@ -102,7 +102,7 @@ Mesh load_mesh(const fs::path& file) {
         fmt::format("{}: {} points and lines left out", file.string(), imported.left_out));
   }
   if (const char* why = why_generated(imported.file_normals)) {
-    generate_smooth_normals(mesh);
+    generate_smooth_normals(mesh, imported.file_normals == FileNormals::partly_missing);
     if (mesh.faces.empty()) {
       throw InputError(file, 0, "all faces of the mesh have zero area");
     }

@@ -107,17 +107,20 @@ std::string read_whole_file(const std::filesystem::path& file, std::size_t max_b
 }
 
 bool LineReader::next(std::string_view& line) {
-  if (rest_.empty()) {
-    return false;
-  }
-  const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+  if (rest_.empty()) return false;
+  const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
   line = rest_.substr(0, end);
-  rest_.remove_prefix(std::min(end + 1, rest_.size()));
-  if (!line.empty() && line.back() == '\r') {
-    line.remove_suffix(1);
-  }
+  const bool pair = rest_.substr(end, 2) == "\r\n";
+  ends_with_carriage_return_ = !pair && end < rest_.size() && rest_[end] == '\r';
+  rest_.remove_prefix(std::min(end + (pair ? 2 : 1), rest_.size()));
   ++number_;
   return true;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
+  return text;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -157,15 +160,21 @@ void words(std::string_view line, std::vector<std::string_view>& parts) {
 }
 
 std::string excerpt(std::string_view text, std::size_t max_bytes) {
-  if (text.size() <= max_bytes) return std::string(text);
-  while (max_bytes > 0 && (static_cast<unsigned char>(text[max_bytes]) & 0xC0U) == 0x80U) {
-    --max_bytes;  // not within a character of UTF-8
+  std::size_t end = std::min(text.size(), max_bytes);
+  while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+    --end;  // not within a character of UTF-8
   }
-  return std::string(text.substr(0, max_bytes)) + "...";
+  std::string result;
+  for (const char c : text.substr(0, end)) result += c == '\0' ? "\\x00" : std::string(1, c);
+  return end < text.size() ? result + "..." : result;
+}
+
+std::optional<double> parse_any_number(std::string_view word) {
+  return parse_whole<double>(word);
 }
 
 std::optional<double> parse_number(std::string_view word) {
-  const std::optional<double> value = parse_whole<double>(word);
+  const std::optional<double> value = parse_any_number(word);
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 

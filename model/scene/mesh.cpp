@@ -33,7 +33,7 @@ Vec3 face_area_vector(const Mesh& mesh, const MeshFace& face) {
       .cross(mesh.positions[face.vertices[2]] - origin);
 }
 
-void generate_smooth_normals(Mesh& mesh) {
+void generate_smooth_normals(Mesh& mesh, bool only_missing) {
   mesh.faces.erase(
       std::remove_if(mesh.faces.begin(), mesh.faces.end(),
                      [&](const MeshFace& face) { return face_area_vector(mesh, face).isZero(0); }),
@@ -48,9 +48,17 @@ void generate_smooth_normals(Mesh& mesh) {
       area[first[vertex]] += area_vector.norm();
     }
   }
-  mesh.normals.assign(mesh.positions.size(), Vec3::UnitY());  // unused vertices keep this one
+  std::vector<bool> given(mesh.positions.size(), false);
+  for (std::size_t i = 0; only_missing && i < given.size(); ++i) {
+    given[i] = !mesh.normals[i].isZero(0);
+  }
+  mesh.normals.resize(mesh.positions.size());
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (!given[i]) mesh.normals[i] = Vec3::UnitY();  // unused vertices keep this one
+  }
   for (MeshFace& face : mesh.faces) {
     for (std::uint32_t& vertex : face.vertices) {
+      if (given[vertex]) continue;
       const std::uint32_t shared = first[vertex];
       if (sum[shared].norm() > 1e-9 * area[shared]) {
         mesh.normals[vertex] = sum[shared].normalized();

@@ -36,6 +36,7 @@ Vec3 face_area_vector(const Mesh& mesh, const MeshFace& face);
 // Replaces each normal by the area-weighted mean of the normals of all faces that meet at its
 // position, across duplicate vertices too. Removes faces of zero area. Where the mean vanishes,
 // such as where two sides of a sheet meet, a corner gets the normal of its own face.
-void generate_smooth_normals(Mesh& mesh);
+// `only_missing`: normals that are not zero stay.
+void generate_smooth_normals(Mesh& mesh, bool only_missing = false);
 
 }  // namespace phongpipe

@@ -1,6 +1,7 @@
 #include "model/files/meshes/gltf_document.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nettle/base64.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
@@ -19,8 +21,38 @@ namespace {
 
 using Json = GltfDocument::Json;
 
-constexpr int kMaxDepth = 64;  // of JSON
+constexpr std::size_t kMaxDepth = 64;  // of JSON
 constexpr std::size_t kMaxBuffers = 1024;
+// Extensions that a file may require: what they describe is not drawn (textures, lights), or is
+// understood.
+constexpr std::array<std::string_view, 4> kKnownExtensions = {
+    "KHR_texture_", "EXT_texture_", "KHR_lights_punctual", "KHR_mesh_quantization"};
+
+// The keys that the objects of the format have, besides name, extensions and extras.
+const std::map<std::string_view, std::set<std::string_view>> kKeys = {
+    {"glTF",
+     {"accessors", "animations", "asset", "buffers", "bufferViews", "cameras", "extensionsRequired",
+      "extensionsUsed", "images", "materials", "meshes", "nodes", "samplers", "scene", "scenes",
+      "skins", "textures"}},
+    {"scenes", {"nodes"}},
+    {"nodes",
+     {"camera", "children", "matrix", "mesh", "rotation", "scale", "skin", "translation",
+      "weights"}},
+    {"meshes", {"primitives", "weights"}},
+    {"primitives", {"attributes", "indices", "material", "mode", "targets"}},
+    {"materials",
+     {"alphaCutoff", "alphaMode", "doubleSided", "emissiveFactor", "emissiveTexture",
+      "normalTexture", "occlusionTexture", "pbrMetallicRoughness"}},
+    {"pbrMetallicRoughness",
+     {"baseColorFactor", "baseColorTexture", "metallicFactor", "metallicRoughnessTexture",
+      "roughnessFactor"}},
+    {"accessors",
+     {"bufferView", "byteOffset", "componentType", "count", "max", "min", "normalized", "sparse",
+      "type"}},
+    {"bufferViews", {"buffer", "byteLength", "byteOffset", "byteStride", "target"}},
+    {"buffers", {"byteLength", "uri"}},
+};
+
 constexpr std::array<const char*, 7> kLists = {"scenes",  "nodes",       "meshes",   "accessors",
                                                "buffers", "bufferViews", "materials"};
 constexpr std::size_t kMaxOffset = std::numeric_limits<std::uint32_t>::max();
@@ -78,11 +110,8 @@ std::size_t component_bytes(std::size_t component_type) {
     case 5122:  // SHORT
     case 5123:  // UNSIGNED_SHORT
       return 2;
-    case 5125:  // UNSIGNED_INT
-    case 5126:  // FLOAT
+    default:  // UNSIGNED_INT, FLOAT
       return 4;
-    default:
-      throw MeshFault(fmt::format("componentType {} is none", component_type));
   }
 }
 
@@ -128,12 +157,66 @@ const Json& none() {
   return empty;
 }
 
+const std::vector<std::size_t> kUnsigned = {5121, 5123, 5125};
+constexpr std::size_t kFloat = 5126;
+
+std::size_t component_type_of(const Json& object, const std::vector<std::size_t>& allowed) {
+  const std::size_t type = GltfDocument::whole(object, "componentType", kMaxOffset);
+  if (std::find(allowed.begin(), allowed.end(), type) == allowed.end()) {
+    throw MeshFault(
+        fmt::format("componentType is {}, must be one of {}", type, fmt::join(allowed, ", ")));
+  }
+  return type;
+}
+
 bool flag(const Json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) return false;
   if (!found->is_boolean()) throw MeshFault(fmt::format("'{}' must be true or false", key));
   return found->get<bool>();
 }
+
+// What the parser would accept: JSON that is deep enough to fill the stack of who walks it, and
+// objects with two values for a key, of which it would keep the last.
+class ShapeCheck : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool /*value*/) override { return true; }
+  bool number_integer(std::int64_t /*value*/) override { return true; }
+  bool number_unsigned(std::uint64_t /*value*/) override { return true; }
+  bool number_float(double /*value*/, const std::string& /*text*/) override { return true; }
+  bool string(std::string& /*value*/) override { return true; }
+  bool binary(Json::binary_t& /*value*/) override { return true; }
+  bool start_object(std::size_t /*size*/) override { return enter(); }
+  bool end_object() override { return leave(); }
+  bool start_array(std::size_t /*size*/) override { return enter(); }
+  bool end_array() override { return leave(); }
+  bool key(std::string& value) override {
+    if (!keys_.back().insert(value).second) {
+      throw MeshFault(fmt::format("its JSON has an object with two keys '{}'", excerpt(value)));
+    }
+    return true;
+  }
+  bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                   const nlohmann::detail::exception& /*error*/) override {
+    return false;  // the parser tells
+  }
+
+ private:
+  bool enter() {
+    keys_.emplace_back();
+    if (keys_.size() > kMaxDepth) {
+      throw MeshFault(fmt::format("its JSON is nested more than {} deep", kMaxDepth));
+    }
+    return true;
+  }
+  bool leave() {
+    keys_.pop_back();
+    return true;
+  }
+
+  std::vector<std::set<std::string>> keys_;  // of each array or object around
+};
 
 }  // namespace
 
@@ -148,6 +231,9 @@ GltfDocument::GltfDocument(const MeshSource& source) {
     throw MeshFault(fmt::format("it is glTF version '{}', must be 2.0", excerpt(version)));
   }
   for (const char* name : kLists) list(root_, name);
+  check_extensions();
+  note_strangers(root_, "glTF");
+  for (const char* name : kLists) note_strangers(list(name), name);
   read_buffers(source);
 }
 
@@ -178,12 +264,9 @@ std::string_view GltfDocument::glb_chunks(std::string_view bytes) {
 
 void GltfDocument::parse(const std::filesystem::path& file, std::string_view json) {
   try {
-    root_ = Json::parse(json.begin(), json.end(), [](int depth, Json::parse_event_t, Json&) {
-      if (depth > kMaxDepth) {
-        throw MeshFault(fmt::format("its JSON is nested more than {} deep", kMaxDepth));
-      }
-      return true;
-    });
+    ShapeCheck check;
+    Json::sax_parse(json.begin(), json.end(), &check);
+    root_ = Json::parse(json.begin(), json.end());
   } catch (const Json::exception& error) {
     const auto* const place = dynamic_cast<const Json::parse_error*>(&error);
     const auto read =
@@ -195,6 +278,51 @@ void GltfDocument::parse(const std::filesystem::path& file, std::string_view jso
   if (!root_.is_object()) throw MeshFault("its JSON is not an object");
 }
 
+// Throws for an extension that must be understood and is not.
+void GltfDocument::check_extensions() {
+  const auto is_known = [](const std::string& name) {
+    return std::any_of(kKnownExtensions.begin(), kKnownExtensions.end(),
+                       [&](std::string_view prefix) { return name.rfind(prefix, 0) == 0; });
+  };
+  for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+    const auto found = root_.find(list);
+    if (found == root_.end()) continue;
+    if (!found->is_array()) throw MeshFault(fmt::format("'{}' must be an array", list));
+    for (const Json& item : *found) {
+      const std::string name = item.is_string() ? item.get<std::string>() : item.dump();
+      if (name == "KHR_mesh_quantization") continue;
+      left_out_.insert(excerpt(name));
+      // Of materials, only one replaces the colours that are drawn.
+      const bool is_material =
+          name.rfind("KHR_materials_", 0) == 0 && name != "KHR_materials_pbrSpecularGlossiness";
+      if (list == std::string_view("extensionsRequired") && !is_known(name) && !is_material) {
+        throw MeshFault(
+            fmt::format("it requires the extension {}, which is not supported", excerpt(name)));
+      }
+    }
+  }
+}
+
+// Keys that nobody reads are mistakes, such as "sale" for "scale". `value`: an object of the kind,
+// or an array of them.
+void GltfDocument::note_strangers(const Json& value, const char* kind) {
+  if (value.is_array()) {
+    for (const Json& item : value) note_strangers(item, kind);
+    return;
+  }
+  if (!value.is_object()) return;
+  const std::set<std::string_view>& known = kKeys.at(kind);
+  for (const auto& [key, item] : value.items()) {
+    if (key == "extensions" && item.is_object()) {
+      for (const auto& [extension, contents] : item.items()) left_out_.insert(excerpt(extension));
+    } else if (kKeys.count(key) != 0 && kind != std::string_view("glTF")) {
+      note_strangers(item, kKeys.find(key)->first.data());
+    } else if (known.count(key) == 0 && key != "name" && key != "extras" && key != "extensions") {
+      left_out_.insert(fmt::format("{}.{}", kind, excerpt(key)));
+    }
+  }
+}
+
 void GltfDocument::read_buffers(const MeshSource& source) {
   const Json& buffers = list("buffers");
   if (buffers.size() > kMaxBuffers) {
@@ -204,29 +332,26 @@ void GltfDocument::read_buffers(const MeshSource& source) {
   for (const Json& buffer : buffers) {
     try {
       const std::size_t length = whole(buffer, "byteLength", kMaxOffset);
-      std::string data = buffer_data(source, buffer);
-      if (data.size() < length) {
+      const std::string_view data = buffer_data(source, buffer);
+      // A buffer without data may stand for one that an extension describes.
+      if (!data.empty() && data.size() < length) {
         throw MeshFault(
             fmt::format("it has {} bytes, but byteLength says {}", data.size(), length));
       }
-      data.resize(length);
-      buffers_.push_back(std::move(data));
+      buffers_.push_back(data.substr(0, length));
     } catch (const MeshFault& fault) {
       throw MeshFault(fmt::format("buffer {}: {}", buffers_.size(), fault.what()));
     }
   }
 }
 
-std::string GltfDocument::buffer_data(const MeshSource& source, const Json& buffer) {
-  if (!buffer.contains("uri")) {
-    if (!buffers_.empty() || binary_chunk_.empty()) throw MeshFault("it has no data");
-    return std::string(binary_chunk_);
-  }
+std::string_view GltfDocument::buffer_data(const MeshSource& source, const Json& buffer) {
+  if (!buffer.contains("uri")) return buffers_.empty() ? binary_chunk_ : std::string_view();
   const std::string uri = text(buffer, "uri");
   if (uri.substr(0, 5) != "data:") {
     auto data = source.open(file_of_uri(uri));
     if (!data) throw MeshFault(fmt::format("there is no file '{}'", excerpt(uri)));
-    return *std::move(data);
+    return buffer_files_.emplace_back(*std::move(data));
   }
   constexpr std::string_view kBase64 = ";base64,";
   const std::size_t comma = std::min(uri.find(','), uri.size() - 1);
@@ -234,7 +359,7 @@ std::string GltfDocument::buffer_data(const MeshSource& source, const Json& buff
       uri.compare(comma + 1 - kBase64.size(), kBase64.size(), kBase64) != 0) {
     throw MeshFault("its data URI is not base64");
   }
-  return base64_decoded(std::string_view(uri).substr(comma + 1));
+  return buffer_files_.emplace_back(base64_decoded(std::string_view(uri).substr(comma + 1)));
 }
 
 const Json& GltfDocument::list(const char* name) const {
@@ -255,12 +380,16 @@ const Json& GltfDocument::list(const Json& object, const char* name) {
 std::ptrdiff_t GltfDocument::reference(const Json& object, const char* key,
                                        const char* target) const {
   const auto found = object.find(key);
-  if (found == object.end()) return -1;
+  return found == object.end() ? -1 : reference_of(*found, key, target);
+}
+
+std::ptrdiff_t GltfDocument::reference_of(const Json& value, const char* key,
+                                          const char* target) const {
   const std::size_t size = list(target).size();
-  const auto index = whole_value(*found, kMaxOffset);
+  const auto index = whole_value(value, kMaxOffset);
   if (!index || *index >= size) {
     throw MeshFault(fmt::format("'{}' is {}, but the file has {} {} (counted from 0)", key,
-                                excerpt(found->dump()), size, target));
+                                excerpt(value.dump()), size, target));
   }
   return static_cast<std::ptrdiff_t>(*index);
 }
@@ -308,17 +437,27 @@ std::size_t GltfDocument::Layout::row_bytes() const {
   return width * component_bytes(component_type);
 }
 
-std::vector<double> GltfDocument::accessor(std::ptrdiff_t index, std::string_view type,
-                                           std::size_t most) const try {
+std::vector<double> GltfDocument::vectors(std::ptrdiff_t accessor) const {
+  return read_accessor(accessor, "VEC3", kMaxMeshVertices, {5120, 5121, 5122, 5123, kFloat});
+}
+
+std::vector<double> GltfDocument::indices(std::ptrdiff_t accessor) const {
+  return read_accessor(accessor, "SCALAR", 3 * kMaxMeshTriangles, kUnsigned);
+}
+
+std::vector<double> GltfDocument::read_accessor(
+    std::ptrdiff_t index, std::string_view type, std::size_t most,
+    const std::vector<std::size_t>& component_types) const try {
   const Json& accessor = list("accessors")[static_cast<std::size_t>(index)];
   if (text(accessor, "type") != type) {
     throw MeshFault(
         fmt::format("its type is '{}', must be {}", excerpt(text(accessor, "type")), type));
   }
-  const Layout layout = {whole(accessor, "componentType", kMaxOffset),
+  const Layout layout = {component_type_of(accessor, component_types),
                          type == "SCALAR" ? std::size_t{1} : std::size_t{3},
                          whole(accessor, "count", most)};
   const bool normalized = flag(accessor, "normalized");
+  if (normalized && type == "SCALAR") throw MeshFault("indices cannot be normalized");
   std::vector<double> values = accessor.contains("bufferView")
                                    ? read_view(accessor, layout, normalized)
                                    : std::vector<double>(layout.count * layout.width, 0.0);
@@ -336,7 +475,7 @@ std::vector<double> GltfDocument::read_view(const Json& owner, const Layout& lay
   const Json& view = list("bufferViews")[static_cast<std::size_t>(view_index)];
   const std::ptrdiff_t buffer = reference(view, "buffer", "buffers");
   if (buffer < 0) throw MeshFault(fmt::format("bufferView {} has no 'buffer'", view_index));
-  const std::string& data = buffers_[static_cast<std::size_t>(buffer)];
+  const std::string_view data = buffers_[static_cast<std::size_t>(buffer)];
   const std::size_t begin = whole(view, "byteOffset", kMaxOffset, 0),
                     length = whole(view, "byteLength", kMaxOffset),
                     stride = whole(view, "byteStride", 252, layout.row_bytes()),
@@ -379,7 +518,7 @@ void GltfDocument::overwrite_sparse(const Json& sparse, const Layout& layout, bo
   const Json& places = part("indices");
   const std::size_t count = whole(sparse, "count", layout.count);
   const std::vector<double> rows =
-      read_view(places, {whole(places, "componentType", kMaxOffset), 1, count}, false);
+      read_view(places, {component_type_of(places, kUnsigned), 1, count}, false);
   const std::vector<double> replaced =
       read_view(part("values"), {layout.component_type, layout.width, count}, normalized);
   for (std::size_t i = 0; i < count; ++i) {

@@ -3,8 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <numeric>
 #include <set>
 
 #include "model/files/meshes/gltf_document.h"
@@ -18,22 +17,18 @@ namespace {
 using Json = GltfDocument::Json;
 using Matrix4 = Eigen::Matrix4d;
 
-// Extensions that a file may require, since they do not change where its points are.
-constexpr std::array<std::string_view, 5> kHarmlessExtensions = {
-    "KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_punctual",
-    "KHR_mesh_quantization"};
-
 class GltfReader {
  public:
   explicit GltfReader(const MeshSource& source) : source_(source), document_(source) {}
 
   ImportedMesh run() {
-    check_extensions();
     read_materials();
     draw_scene();
     if (!has_normals_) imported_.file_normals = FileNormals::missing;
+    left_out_.insert(document_.left_out().begin(), document_.left_out().end());
     if (!left_out_.empty()) {
-      note(fmt::format("left out: {}", fmt::join(left_out_, ", ")));
+      note(
+          fmt::format("left out: {}", excerpt(fmt::format("{}", fmt::join(left_out_, ", ")), 500)));
     }
     return std::move(imported_);
   }
@@ -48,45 +43,52 @@ class GltfReader {
     imported_.mesh.notes.push_back(fmt::format("{}: {}", source_.file.string(), text));
   }
 
-  void check_extensions() const {
-    const auto required = document_.root().find("extensionsRequired");
-    if (required == document_.root().end()) return;
-    if (!required->is_array()) throw MeshFault("'extensionsRequired' must be an array");
-    for (const Json& name : *required) {
-      const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
-      if (std::none_of(kHarmlessExtensions.begin(), kHarmlessExtensions.end(),
-                       [&](std::string_view prefix) { return text.rfind(prefix, 0) == 0; })) {
-        throw MeshFault(
-            fmt::format("it requires the extension {}, which is not supported", excerpt(text)));
-      }
-    }
-  }
-
   void read_materials() {
     for (const Json& source : document_.list("materials")) {
       const std::size_t index = imported_.mesh.materials.size();
+      if (index == kMaxMeshMaterials) {
+        throw MeshFault(fmt::format("a mesh may have at most {} materials", kMaxMeshMaterials));
+      }
       Material& material = imported_.mesh.materials.emplace_back();
       material.name = GltfDocument::text(source, "name");
       if (material.name.empty()) {
         material.name = fmt::format("{}#{}", source_.file.stem().string(), index);
       }
-      for (const char* texture : {"normalTexture", "occlusionTexture", "emissiveTexture"}) {
-        if (source.contains(texture)) left_out_.emplace("textures");
+      try {
+        read_material(source, material);
+      } catch (const MeshFault& fault) {
+        throw MeshFault(fmt::format("material {}: {}", index, fault.what()));
       }
-      const auto pbr = source.find("pbrMetallicRoughness");
-      if (pbr == source.end()) continue;
-      if (!pbr->is_object()) throw MeshFault("'pbrMetallicRoughness' must be an object");
-      if (pbr->contains("baseColorTexture")) left_out_.emplace("textures");
-      const auto color = pbr->find("baseColorFactor");
-      if (color == pbr->end()) continue;
-      const auto rgba = GltfDocument::numbers(*color, "baseColorFactor", 4);
-      material.diffuse = Color(rgba[0], rgba[1], rgba[2]);
-      if (!((material.diffuse >= 0).all() && (material.diffuse <= 1).all())) {
-        throw MeshFault(
-            fmt::format("material {}: baseColorFactor is [{}, {}, {}], must be from 0 "
-                        "to 1",
-                        index, rgba[0], rgba[1], rgba[2]));
-      }
+    }
+  }
+
+  void read_material(const Json& source, Material& material) {
+    const std::string mode = GltfDocument::text(source, "alphaMode");
+    if (mode != "" && mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") {
+      throw MeshFault(
+          fmt::format("alphaMode is '{}', must be OPAQUE, MASK or BLEND", excerpt(mode)));
+    }
+    if (mode == "MASK" || mode == "BLEND") left_out_.emplace("transparency");
+    for (const char* texture : {"normalTexture", "occlusionTexture", "emissiveTexture"}) {
+      if (source.contains(texture)) left_out_.emplace("textures");
+    }
+    if (const auto emission = source.find("emissiveFactor"); emission != source.end()) {
+      const auto factors = GltfDocument::numbers(*emission, "emissiveFactor", 3);
+      if (factors != std::vector<double>(3, 0.0)) left_out_.emplace("emission");
+    }
+    const auto pbr = source.find("pbrMetallicRoughness");
+    if (pbr == source.end()) return;
+    if (!pbr->is_object()) throw MeshFault("'pbrMetallicRoughness' must be an object");
+    for (const char* texture : {"baseColorTexture", "metallicRoughnessTexture"}) {
+      if (pbr->contains(texture)) left_out_.emplace("textures");
+    }
+    const auto color = pbr->find("baseColorFactor");
+    if (color == pbr->end()) return;
+    const auto rgba = GltfDocument::numbers(*color, "baseColorFactor", 4);
+    material.diffuse = Color(rgba[0], rgba[1], rgba[2]);
+    if (!((material.diffuse >= 0).all() && (material.diffuse <= 1).all())) {
+      throw MeshFault(fmt::format("baseColorFactor is [{}, {}, {}], must be from 0 to 1", rgba[0],
+                                  rgba[1], rgba[2]));
     }
   }
 
@@ -144,8 +146,7 @@ class GltfReader {
     const auto found = owner.find(key);
     if (found == owner.end()) return nodes;
     if (!found->is_array()) throw MeshFault(fmt::format("'{}' must be an array", key));
-    for (const Json& item : *found)
-      nodes.push_back(document_.reference({{key, item}}, key, "nodes"));
+    for (const Json& item : *found) nodes.push_back(document_.reference_of(item, key, "nodes"));
     return nodes;
   }
 
@@ -161,7 +162,11 @@ class GltfReader {
       if (!move.empty() || !turn.empty() || !scale.empty()) {
         throw MeshFault("it has a matrix and also translation, rotation or scale");
       }
-      return Eigen::Map<const Matrix4>(whole.data());
+      const Matrix4 matrix = Eigen::Map<const Matrix4>(whole.data());
+      if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
+        throw MeshFault("its matrix is a projection: the last row must be 0 0 0 1");
+      }
+      return matrix;
     }
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
     if (!move.empty()) transform.translate(Vec3(move[0], move[1], move[2]));
@@ -204,9 +209,17 @@ class GltfReader {
     }
     const std::ptrdiff_t positions = document_.reference(*attributes, "POSITION", "accessors");
     if (positions < 0) throw MeshFault("it has no positions");
+    // What a transform shrinks to a line or a point is hidden.
+    const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
+    if (linear.col(0).cross(linear.col(1)).isZero(0) &&
+        linear.col(1).cross(linear.col(2)).isZero(0) &&
+        linear.col(2).cross(linear.col(0)).isZero(0)) {
+      return;
+    }
+    const std::size_t first_vertex = imported_.mesh.positions.size();
+    add_vertices(positions, document_.reference(*attributes, "NORMAL", "accessors"), transform);
     const std::vector<std::uint32_t> corners =
-        add_vertices(positions, document_.reference(*attributes, "NORMAL", "accessors"), transform,
-                     document_.reference(primitive, "indices", "accessors"));
+        corners_of(document_.reference(primitive, "indices", "accessors"), first_vertex);
     const std::uint32_t material = material_of(primitive);
     const std::size_t first_face = imported_.mesh.faces.size();
     if (mode == strip) {
@@ -231,15 +244,12 @@ class GltfReader {
     }
   }
 
-  // Returns the vertices that the indices name, or all where there are no indices (-1).
-  std::vector<std::uint32_t> add_vertices(std::ptrdiff_t position_accessor,
-                                          std::ptrdiff_t normal_accessor, const Matrix4& transform,
-                                          std::ptrdiff_t index_accessor) {
-    const std::vector<double> positions =
-        document_.accessor(position_accessor, "VEC3", kMaxMeshVertices);
+  void add_vertices(std::ptrdiff_t position_accessor, std::ptrdiff_t normal_accessor,
+                    const Matrix4& transform) {
+    const std::vector<double> positions = document_.vectors(position_accessor);
     std::vector<double> normals;
     if (normal_accessor >= 0) {
-      normals = document_.accessor(normal_accessor, "VEC3", kMaxMeshVertices);
+      normals = document_.vectors(normal_accessor);
       if (normals.size() != positions.size()) {
         throw MeshFault(fmt::format("it has {} positions, but {} normals", positions.size() / 3,
                                     normals.size() / 3));
@@ -247,31 +257,34 @@ class GltfReader {
     }
     const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
     const Vec3 translation = transform.topRightCorner<3, 1>();
-    const double determinant = linear.determinant();
     // Normals of a scaled surface turn the other way from its points; of a flattened one they
     // cannot be told from its points'.
-    const bool normals_hold = !normals.empty() && determinant != 0;
+    const bool normals_hold = !normals.empty() && linear.determinant() != 0;
     if (!normals_hold) imported_.file_normals = FileNormals::partly_missing;
     has_normals_ = has_normals_ || normals_hold;
     const Eigen::Matrix3d normal_matrix =
         normals_hold ? Eigen::Matrix3d(linear.inverse().transpose()) : Eigen::Matrix3d::Zero();
-    const std::size_t first = imported_.mesh.positions.size();
     for (std::size_t i = 0; i < positions.size(); i += 3) {
       imported_.add_vertex(
           linear * Vec3(positions[i], positions[i + 1], positions[i + 2]) + translation,
           normals_hold ? Vec3(normal_matrix * Vec3(normals[i], normals[i + 1], normals[i + 2]))
                        : Vec3::Zero());
     }
+  }
+
+  // The vertices from `first` on that the indices name, or all where there are no indices (-1).
+  std::vector<std::uint32_t> corners_of(std::ptrdiff_t index_accessor, std::size_t first) const {
+    const std::size_t count = imported_.mesh.positions.size() - first;
     std::vector<std::uint32_t> corners;
     if (index_accessor < 0) {
-      for (std::size_t i = first; i < imported_.mesh.positions.size(); ++i) {
-        corners.push_back(static_cast<std::uint32_t>(i));
-      }
+      corners.resize(count);
+      std::iota(corners.begin(), corners.end(), static_cast<std::uint32_t>(first));
       return corners;
     }
-    const std::size_t count = imported_.mesh.positions.size() - first;
-    for (const double index : document_.accessor(index_accessor, "SCALAR", 3 * kMaxMeshTriangles)) {
-      if (!(index >= 0 && index < static_cast<double>(count) && index == std::floor(index))) {
+    const std::vector<double> indices = document_.indices(index_accessor);
+    corners.reserve(indices.size());
+    for (const double index : indices) {
+      if (index >= static_cast<double>(count)) {
         throw MeshFault(fmt::format("an index is {}, but there are {} vertices", index, count));
       }
       corners.push_back(static_cast<std::uint32_t>(first) + static_cast<std::uint32_t>(index));

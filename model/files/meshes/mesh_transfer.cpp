@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <new>
+#include <cstring>
 #include <optional>
 
 #include "model/files/text_file.h"
@@ -19,11 +19,14 @@ constexpr std::size_t kMaxMeshBytes = std::size_t{128} << 20;  // with the files
 constexpr std::size_t kMaxCompanions = 64;                     // files that a mesh names
 constexpr std::size_t kMaxMessageBytes = 4096;
 constexpr std::size_t kMaxNotes = 20;
-constexpr std::size_t kChildMemory = std::size_t{384} << 20;
+constexpr std::size_t kMaxNameBytes = 1000;  // of a material
+constexpr std::size_t kMaxNamesBytes = std::size_t{16} << 20;
+// The child's text and what it makes of it; with the file, 512 MiB at most.
+constexpr std::size_t kChildMemory = std::size_t{352} << 20;
 
-// A second of processor time for any file, and one for every 8 MiB.
+// A second of processor time for any file, and one for every 4 MiB.
 unsigned processor_seconds(std::size_t bytes) {
-  return 1 + static_cast<unsigned>(bytes >> 23U);
+  return 1 + static_cast<unsigned>(bytes >> 22U);
 }
 
 struct Facts {
@@ -33,9 +36,13 @@ struct Facts {
 // Of a material; its name is sent apart.
 using MaterialNumbers = std::array<double, 10>;
 
+// Each text behind its size.
 std::string joined(const std::vector<std::string>& texts) {
   std::string result;
-  for (const std::string& text : texts) result.append(text).push_back('\0');
+  for (const std::string& text : texts) {
+    const std::uint64_t size = text.size();
+    result.append(reinterpret_cast<const char*>(&size), sizeof size).append(text);
+  }
   return result;
 }
 
@@ -55,7 +62,7 @@ void send_mesh(const Channel& channel, const ImportedMesh& imported) {
   std::vector<std::string> names;
   std::vector<MaterialNumbers> numbers;
   for (const Material& m : mesh.materials) {
-    names.push_back(m.name);
+    names.push_back(excerpt(m.name, kMaxNameBytes));
     numbers.push_back({m.ambient[0], m.ambient[1], m.ambient[2], m.diffuse[0], m.diffuse[1],
                        m.diffuse[2], m.specular[0], m.specular[1], m.specular[2], m.shininess});
   }
@@ -89,9 +96,6 @@ void decode(const Channel& channel, const MeshFormat& format, const fs::path& fi
     error = fault.what();
   } catch (const Channel::Closed&) {
     return;
-  } catch (const std::bad_alloc&) {
-    error = fmt::format("{}: its reader needs more than {} MiB of memory", file.string(),
-                        kChildMemory >> 20U);
   } catch (const std::exception& fault) {
     error = fmt::format("{}: its reader failed: {}", file.string(), fault.what());
   }
@@ -121,7 +125,7 @@ class MeshReceiver {
     mesh.positions = next_array<Vec3>(kPositions, kMaxMeshVertices);
     mesh.normals = next_array<Vec3>(kNormals, kMaxMeshVertices);
     mesh.faces = next_array<MeshFace>(kFaces, kMaxMeshTriangles);
-    const std::vector<std::string> names = next_texts(kMaterialNames, kMaxMeshMaterials * 64);
+    const std::vector<std::string> names = next_texts(kMaterialNames, kMaxNamesBytes);
     const auto numbers = next_array<MaterialNumbers>(kMaterialNumbers, kMaxMeshMaterials);
     mesh.notes = next_texts(kNotes, (kMaxNotes + 1) * kMaxMessageBytes);
     if (mesh.normals.size() != mesh.positions.size() || names.size() != numbers.size()) {
@@ -193,10 +197,14 @@ class MeshReceiver {
     if (header.kind != kind) fail("a text out of order");
     const std::string all = text(header, max_bytes);
     std::vector<std::string> texts;
-    for (std::size_t begin = 0; begin < all.size();) {
-      const std::size_t end = std::min(all.find('\0', begin), all.size());
-      texts.push_back(all.substr(begin, end - begin));
-      begin = end + 1;
+    for (std::string_view rest = all; !rest.empty();) {
+      std::uint64_t size = 0;
+      if (rest.size() < sizeof size) fail("a text that was cut");
+      std::memcpy(&size, rest.data(), sizeof size);
+      rest.remove_prefix(sizeof size);
+      if (size > rest.size()) fail("a text that was cut");
+      texts.emplace_back(rest.substr(0, size));
+      rest.remove_prefix(size);
     }
     return texts;
   }

@@ -18,9 +18,9 @@ enum Kind : std::uint64_t {
   kPositions,
   kNormals,
   kFaces,
-  kMaterialNames,  // each ends with a zero byte
+  kMaterialNames,
   kMaterialNumbers,
-  kNotes,  // each ends with a zero byte
+  kNotes,
 };
 // What the parent answers to a request.
 enum Answer : std::uint64_t { kFile, kNoFile };

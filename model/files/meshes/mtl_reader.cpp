@@ -24,7 +24,7 @@ struct LeftOut {
   std::string_view keyword;
   double neutral;
 };
-constexpr std::array<LeftOut, 3> kLeftOut = {{{"Ke", 0}, {"d", 1}, {"Tr", 0}}};
+constexpr std::array<LeftOut, 4> kLeftOut = {{{"Ke", 0}, {"d", 1}, {"Tr", 0}, {"Tf", 1}}};
 constexpr std::array<std::string_view, 6> kTextures = {"bump", "disp", "decal",
                                                        "refl", "norm", "texopt"};
 
@@ -38,6 +38,7 @@ class MtlReader {
       line_ = statement.line;
       read(statement);
     });
+    finish_material();
     if (!left_out_.empty()) {
       notes_.push_back(fmt::format("{}: left out: {}", file_.string(), fmt::join(left_out_, ", ")));
     }
@@ -59,12 +60,15 @@ class MtlReader {
       material.specular = color(statement);
     } else if (statement.keyword == "Ns") {
       material.shininess = shininess(statement);
+    } else if (statement.keyword == "illum") {
+      choose_illumination(statement);
     } else {
       leave_out(statement);
     }
   }
 
   void begin(std::string_view name) {
+    finish_material();
     if (name.empty()) fail("newmtl needs a name");
     if (!names_.emplace(name).second) {
       fail(fmt::format("material '{}' is defined twice", excerpt(name)));
@@ -110,6 +114,24 @@ class MtlReader {
     return value;
   }
 
+  // 1 is diffuse light without highlights, 2 with them; 0 is a colour without light, and from 3 on
+  // mirrors and glass are wanted, too.
+  void choose_illumination(const Statement& statement) {
+    constexpr long kLast = 10;
+    const auto model =
+        statement.values.size() == 1 ? parse_integer(statement.values[0]) : std::optional<long>();
+    if (!model || *model < 0 || *model > kLast) {
+      fail(fmt::format("illum needs a whole number from 0 to {}", kLast));
+    }
+    matt_ = *model == 1;
+    if (*model == 0 || *model > 2) left_out_.emplace(fmt::format("illum {}", *model));
+  }
+
+  void finish_material() {
+    if (matt_) materials_.back().specular = Color::Zero();
+    matt_ = false;
+  }
+
   void leave_out(const Statement& statement) {
     const std::string_view keyword = statement.keyword;
     const auto is = [&](std::string_view known) { return known == keyword; };
@@ -139,6 +161,7 @@ class MtlReader {
   std::vector<Material> materials_;
   std::set<std::string, std::less<>> names_;
   std::set<std::string> left_out_;
+  bool matt_ = false;  // the material is without highlights
 };
 
 }  // namespace

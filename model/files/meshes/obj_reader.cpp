@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 #include "model/files/meshes/imported_mesh.h"
+#include "model/files/meshes/mesh_format.h"
 #include "model/files/meshes/mtl_reader.h"
 #include "model/files/meshes/statements.h"
 #include "model/scene/input_error.h"
@@ -76,17 +78,17 @@ class ObjReader {
       read_extra_numbers(statement);
     } else if (statement.keyword == "vn") {
       if (statement.values.size() > 3) fail("a normal has three coordinates");
-      normals_.push_back(read_vector(statement, "normal"));
-      if (normals_.back().isZero(0)) fail("normal is zero");
+      normals_.push_back(read_vector(statement, "normal", parse_any_number));
     }
   }
 
-  Vec3 read_vector(const Statement& statement, const char* what) const {
+  Vec3 read_vector(const Statement& statement, const char* what,
+                   std::optional<double> (*parse)(std::string_view) = parse_number) const {
     if (statement.values.size() < 3) fail(fmt::format("{} needs three coordinates", what));
     Vec3 vector;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string_view word = statement.values[i];
-      const std::optional<double> value = parse_number(word);
+      const std::optional<double> value = parse(word);
       if (!value) {
         fail(fmt::format("{} coordinate '{}' is not a finite number", what, excerpt(word)));
       }
@@ -137,7 +139,8 @@ class ObjReader {
     } else if (keyword == "mtllib") {
       read_libraries(statement);
     } else if (contains(kFreeForm, keyword)) {
-      note_once(keyword == "surf", surfaces_noted_, "free-form surfaces left out");
+      note_once(keyword == "surf" || keyword == "curv" || keyword == "curv2", free_form_noted_,
+                "free-form curves and surfaces left out");
     } else if (!contains(kWithoutEffect, keyword)) {
       fail(fmt::format("'{}' is not a statement of OBJ files", excerpt(keyword)));
     }
@@ -169,7 +172,12 @@ class ObjReader {
       }
     }
     const auto [vertex, normal] = std::make_pair(indices[0], indices[2]);
-    if (normal == kNone) imported_.file_normals = FileNormals::partly_missing;
+    if (normal == kNone) {
+      imported_.file_normals = FileNormals::partly_missing;
+    } else if (const double length = normals_[normal].stableNorm();
+               !(length > 0 && std::isfinite(length))) {
+      fail(fmt::format("face refers to vn {}, which is zero or not a number", normal + 1));
+    }
     const auto [known, is_new] =
         vertices_.try_emplace((std::uint64_t{vertex} << 32U) | normal, kNone);
     if (is_new) {
@@ -193,7 +201,7 @@ class ObjReader {
   }
 
   void use_material(const Statement& statement) {
-    if (statement.rest.empty()) fail("usemtl needs a name");
+    note_once(statement.rest.empty(), unnamed_noted_, "usemtl without a name: default material");
     current_material_ = material_index(statement.rest);
   }
 
@@ -201,6 +209,9 @@ class ObjReader {
   std::uint32_t material_index(std::string_view name) {
     const auto [found, is_new] = material_indices_.try_emplace(
         std::string(name), static_cast<std::uint32_t>(material_indices_.size()));
+    if (material_indices_.size() > kMaxMeshMaterials) {
+      fail(fmt::format("a mesh may have at most {} materials", kMaxMeshMaterials));
+    }
     return found->second;
   }
 
@@ -208,19 +219,31 @@ class ObjReader {
     if (statement.values.empty()) fail("mtllib needs a file");
     // A name may contain blanks; otherwise they stand between names.
     if (read_library(std::string(statement.rest))) return;
+    const auto is_library = [](std::string_view name) {
+      return has_extension_of(std::string(name), {".mtl"});
+    };
+    if (!std::all_of(statement.values.begin(), statement.values.end(), is_library)) {
+      return note_missing_library(statement.rest);
+    }
     for (const std::string_view name : statement.values) {
-      if (statement.values.size() > 1 && read_library(std::string(name))) continue;
-      library_missing_ = true;
-      imported_.mesh.notes.push_back(
-          fmt::format("{}:{}: material library '{}' not found, default material used",
-                      source_.file.string(), line_, name));
+      if (statement.values.size() == 1 || !read_library(std::string(name))) {
+        note_missing_library(name);
+      }
     }
   }
 
+  void note_missing_library(std::string_view name) {
+    library_missing_ = true;
+    imported_.mesh.notes.push_back(
+        fmt::format("{}:{}: material library '{}' not found, default material used",
+                    source_.file.string(), line_, excerpt(name)));
+  }
+
   bool read_library(const std::string& name) {
+    if (libraries_.count(name) != 0) return true;
     const std::optional<std::string> text = source_.open(name);
     if (!text) return false;
-    library_read_ = true;
+    libraries_.insert(name);
     for (Material& material :
          read_mtl(source_.file.parent_path() / name, *text, imported_.mesh.notes)) {
       const std::string key = material.name;
@@ -232,7 +255,7 @@ class ObjReader {
   // The materials that faces use. None where no library was read.
   void finish_materials() {
     Mesh& mesh = imported_.mesh;
-    if (!library_read_) {
+    if (libraries_.empty()) {
       for (MeshFace& face : mesh.faces) face.material = 0;
     } else {
       mesh.materials.resize(material_indices_.size());
@@ -265,8 +288,10 @@ class ObjReader {
   std::map<std::string, std::uint32_t> material_indices_;      // in the order of their use
   std::uint32_t current_material_ = kNone;
   std::map<std::string, Material> library_;
-  bool library_read_ = false, library_missing_ = false;
-  bool weights_noted_ = false, colors_noted_ = false, surfaces_noted_ = false;
+  std::set<std::string> libraries_;  // that were read
+  bool library_missing_ = false;
+  bool weights_noted_ = false, colors_noted_ = false, free_form_noted_ = false,
+       unnamed_noted_ = false;
 };
 
 }  // namespace

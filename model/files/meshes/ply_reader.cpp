@@ -52,14 +52,17 @@ struct Element {
 
 class PlyReader {
  public:
-  explicit PlyReader(const MeshSource& source) : file_(source.file), lines_(source.bytes) {}
+  explicit PlyReader(const MeshSource& source)
+      : file_(source.file), lines_(without_byte_order_mark(source.bytes)) {}
 
   ImportedMesh run() try {
     read_header();
     bytes_ = lines_.rest();
     for (const Element& element : elements_) read_element(element);
-    element_ = nullptr;
     check_end();
+    add_early_items();
+    element_ = nullptr;
+    note_left_out();
     return std::move(imported_);
   } catch (const MeshFault& fault) {
     fail(fmt::format("{}: {}", item(), fault.what()));
@@ -132,28 +135,32 @@ class PlyReader {
 
   void check_header() const {
     if (!encoding_) fail("the header has no line 'format ascii 1.0' or the like");
-    bool vertices_seen = false;
+    // The first byte of a binary body may look like the second of a line end.
+    if (!ascii() && lines_.ends_with_carriage_return()) {
+      fail("the header of a binary file must have line feeds at the ends of its lines");
+    }
     for (const Element& element : elements_) {
-      if (element.properties.empty()) {
+      if (element.properties.empty() && element.count > 0) {
         fail(fmt::format("element '{}' has no properties", excerpt(element.name)));
       }
-      if (element.name == "vertex") {
-        vertices_seen = true;
-        for (const char* axis : {"x", "y", "z"}) {
-          if (!element.find(axis, false)) {
-            fail(fmt::format("element 'vertex' has no property '{}'", axis));
-          }
+      for (const char* axis : {"x", "y", "z"}) {
+        if (element.name == "vertex" && !element.find(axis, false)) {
+          fail(fmt::format("element 'vertex' has no property '{}'", axis));
         }
-      } else if (has_corners(element)) {
-        if (!vertices_seen) {
-          fail(fmt::format("element '{}' must stand after element 'vertex'", element.name));
-        }
-        if (!corner_list(element)) {
-          fail(fmt::format("element '{}' has no list 'vertex_indices'", element.name));
-        }
+      }
+      if (has_corners(element) && !corner_list(element)) {
+        fail(fmt::format("element '{}' has no list 'vertex_indices'", element.name));
       }
     }
   }
+
+  struct EarlyItem {
+    const Element* element;
+    long item;
+    std::vector<double> corners;
+  };
+  static constexpr std::array<std::string_view, 6> kVertexColumns = {"x",  "y",  "z",
+                                                                     "nx", "ny", "nz"};
 
   static bool has_corners(const Element& element) {
     return element.name == "face" || element.name == "tristrips";
@@ -167,29 +174,64 @@ class PlyReader {
     element_ = &element;
     item_ = 0;
     if (element.name == "vertex") return read_vertices(element);
-    const bool used = has_corners(element);
+    const auto corners = has_corners(element) ? corner_list(element) : std::nullopt;
     for (; item_ < element.count; ++item_) {
-      read_item(element, used ? corner_list(element) : std::nullopt);
-      if (element.name == "face") {
-        check_corners(0);
-        corners_.assign(list_.begin(), list_.end());
-        imported_.add_polygon(corners_, 0);
-      } else if (used) {
-        add_strips();
+      read_item(element, corners);
+      if (!corners) continue;
+      if (vertices_read_) {
+        add_item();
+      } else {
+        early_items_.push_back({&element, item_, list_});
       }
     }
   }
 
+  // Adds the face or the strips whose corners are in list_.
+  void add_item() {
+    if (element_->name == "tristrips") return add_strips();
+    check_corners(0);
+    corners_.assign(list_.begin(), list_.end());
+    imported_.add_polygon(corners_, 0);
+  }
+
+  // Those that stand before the vertices.
+  void add_early_items() {
+    for (EarlyItem& early : early_items_) {
+      element_ = early.element;
+      item_ = early.item;
+      list_ = std::move(early.corners);
+      add_item();
+    }
+  }
+
+  void note_left_out() {
+    std::vector<std::string> left_out;
+    for (const Element& element : elements_) {
+      if (element.name != "vertex" && !has_corners(element)) {
+        left_out.push_back(excerpt(element.name));
+        continue;
+      }
+      for (const Property& property : element.properties) {
+        const bool used = has_corners(element)
+                              ? &property == &element.properties[*corner_list(element)]
+                              : std::find(std::begin(kVertexColumns), std::end(kVertexColumns),
+                                          property.name) != std::end(kVertexColumns);
+        if (!used) left_out.push_back(fmt::format("{}.{}", element.name, excerpt(property.name)));
+      }
+    }
+    if (left_out.empty()) return;
+    imported_.mesh.notes.push_back(
+        fmt::format("{}: left out: {}", file_.string(),
+                    excerpt(fmt::format("{}", fmt::join(left_out, ", ")), 500)));
+  }
+
   void read_vertices(const Element& element) {
-    std::array<std::optional<std::size_t>, 6> columns;
-    constexpr std::array<const char*, 6> kNames = {"x", "y", "z", "nx", "ny", "nz"};
-    for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = element.find(kNames[i], false);
+    std::array<std::optional<std::size_t>, kVertexColumns.size()> columns;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      columns[i] = element.find(kVertexColumns[i], false);
+    }
     const bool normals = columns[3] && columns[4] && columns[5];
     if (!normals) imported_.file_normals = FileNormals::missing;
-    if (element.find("red", false)) {
-      imported_.mesh.notes.push_back(
-          fmt::format("{}: colors of vertices left out", file_.string()));
-    }
     used_.assign(element.properties.size(), false);
     for (std::size_t i = 0; i < (normals ? 6U : 3U); ++i) used_[*columns[i]] = true;
     for (; item_ < element.count; ++item_) {
@@ -199,6 +241,7 @@ class PlyReader {
                            normals ? Vec3(value(3), value(4), value(5)) : Vec3::Zero());
     }
     used_.clear();
+    vertices_read_ = true;
   }
 
   // Fills list_ from the property `list`, and values_ with the properties that are used.
@@ -212,7 +255,8 @@ class PlyReader {
         read_list(property, i == list);
       } else if (i < used_.size() && used_[i]) {
         values_[i] = read(property.type);
-        if (!(std::abs(values_[i]) <= kMaxCoordinate)) {  // NaN, too
+        // A normal may be NaN, as long as no face has it.
+        if (property.name.front() != 'n' && !(std::abs(values_[i]) <= kMaxCoordinate)) {
           throw MeshFault(fmt::format("{} is {}, must be a number of at most {}", property.name,
                                       values_[i], kMaxCoordinate));
         }
@@ -289,8 +333,8 @@ class PlyReader {
   double read(Type type) {
     if (!ascii()) return read_bytes(type);
     const std::string_view word = next_word();
-    const std::optional<double> value = parse_number(word);
-    if (!value) fail(fmt::format("{}: '{}' is not a finite number", item(), excerpt(word)));
+    const std::optional<double> value = parse_any_number(word);
+    if (!value) fail(fmt::format("{}: '{}' is not a number", item(), excerpt(word)));
     return *value;
   }
 
@@ -360,6 +404,8 @@ class PlyReader {
   std::vector<double> values_;  // by property
   std::vector<double> list_;
   std::vector<std::uint32_t> corners_;
+  bool vertices_read_ = false;
+  std::vector<EarlyItem> early_items_;
   ImportedMesh imported_;
 };
 

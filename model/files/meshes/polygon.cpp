@@ -9,6 +9,10 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
+// Larger polygons that touch themselves so that no ear is found are refused: every pair of corners
+// that meet may have to be tried.
+constexpr std::size_t kMaxTouchingCorners = 64;
+
 // Twice the area of a triangle, positive if it goes counter-clockwise.
 double area(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Vec2 ab = b - a, ac = c - a;
@@ -25,7 +29,7 @@ Vec3 area_vector(const std::vector<Vec3>& corners) {
 }
 
 // The points seen against the normal, along the axis that is nearest to it. Counter-clockwise.
-std::vector<Vec2> projected(const std::vector<Vec3>& corners, const Vec3& normal) {
+std::vector<Vec2> along_axis(const std::vector<Vec3>& corners, const Vec3& normal) {
   Eigen::Index axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   Eigen::Index u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -34,6 +38,17 @@ std::vector<Vec2> projected(const std::vector<Vec3>& corners, const Vec3& normal
   points.reserve(corners.size());
   for (const Vec3& corner : corners) {
     points.emplace_back(corner[u] - corners[0][u], corner[v] - corners[0][v]);
+  }
+  return points;
+}
+
+// The same along the normal itself, which rounds the points.
+std::vector<Vec2> along_normal(const std::vector<Vec3>& corners, const Vec3& normal) {
+  const Vec3 u = normal.unitOrthogonal(), v = normal.normalized().cross(u);
+  std::vector<Vec2> points;
+  points.reserve(corners.size());
+  for (const Vec3& corner : corners) {
+    points.emplace_back(u.dot(corner - corners[0]), v.dot(corner - corners[0]));
   }
   return points;
 }
@@ -172,14 +187,54 @@ bool is_flat(const std::vector<Vec3>& corners) {
 
 }  // namespace
 
+namespace {
+
+std::optional<Triangles> cut(const std::vector<Vec2>& points);
+
+// Cuts a polygon that meets itself at a corner into two, which go around in the same sense.
+std::optional<Triangles> cut_where_it_touches(const std::vector<Vec2>& points) {
+  const auto count = static_cast<std::uint32_t>(points.size());
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t j = i + 1; j < count; ++j) {
+      if (points[i] != points[j]) continue;
+      std::optional<Triangles> whole = Triangles();
+      for (const bool inner : {true, false}) {
+        std::vector<std::uint32_t> part;
+        for (std::uint32_t k = 0; k < count; ++k) {
+          if ((k >= i && k < j) == inner) part.push_back(k);
+        }
+        std::vector<Vec2> part_points;
+        for (const std::uint32_t k : part) part_points.push_back(points[k]);
+        const auto triangles = cut(part_points);
+        if (!triangles) {
+          whole.reset();
+          break;
+        }
+        for (const auto& [a, b, c] : *triangles) whole->push_back({part[a], part[b], part[c]});
+      }
+      if (whole) return whole;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Triangles> cut(const std::vector<Vec2>& points) {
+  if (points.size() < 3) return Triangles();  // a spike
+  const EarClipper clipper(points);
+  if (clipper.convex()) return fan(points.size());
+  if (clipper.crosses_itself()) return std::nullopt;
+  if (auto triangles = EarClipper(points).run()) return triangles;
+  return points.size() > kMaxTouchingCorners ? std::nullopt : cut_where_it_touches(points);
+}
+
+}  // namespace
+
 std::optional<Triangles> cut_polygon(const std::vector<Vec3>& corners) {
   if (is_flat(corners)) return fan(corners.size());
   const Vec3 normal = area_vector(corners);
   if (normal.isZero(0)) return std::nullopt;
-  EarClipper clipper(projected(corners, normal));
-  if (clipper.convex()) return fan(corners.size());
-  if (clipper.crosses_itself()) return std::nullopt;
-  return clipper.run();
+  if (auto triangles = cut(along_axis(corners, normal))) return triangles;
+  return cut(along_normal(corners, normal));
 }
 
 }  // namespace phongpipe

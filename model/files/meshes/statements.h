@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,7 +11,8 @@
 
 namespace phongpipe {
 
-// A line without its comment; a backslash at the end of a line continues it.
+// A line without its comment. A backslash at its end continues it, unless it ends a comment or a
+// name, such as that of a folder.
 struct Statement {
   unsigned line = 0;                     // of its end, from 1
   std::string_view keyword;              // the first word
@@ -18,37 +20,50 @@ struct Statement {
   std::vector<std::string_view> values;  // the words of `rest`
 };
 
+// Whether a name follows the keyword. It may contain blanks and signs, as in "Material #25".
+inline bool takes_name(std::string_view keyword) {
+  constexpr std::string_view kKeywords[] = {"g",      "o",      "newmtl",     "usemtl",   "mtllib",
+                                            "maplib", "usemap", "bump",       "disp",     "decal",
+                                            "refl",   "norm",   "shadow_obj", "trace_obj"};
+  return keyword.substr(0, 4) == "map_" ||
+         std::find(std::begin(kKeywords), std::end(kKeywords), keyword) != std::end(kKeywords);
+}
+
+// Where the comment of a line begins. Within a name only a sign between blanks begins one.
+inline std::size_t comment_of(std::string_view line, bool in_name) {
+  const auto is_blank = [&](std::size_t at) {
+    return at >= line.size() || line[at] == ' ' || line[at] == '\t';
+  };
+  std::size_t at = line.find('#');
+  while (in_name && at != std::string_view::npos && at > 0 &&
+         !(is_blank(at - 1) && is_blank(at + 1))) {
+    at = line.find('#', at + 1);
+  }
+  return std::min(at, line.size());
+}
+
 // Calls visit(const Statement&) for each line that is not empty.
 template <class Visit>
 void for_each_statement(std::string_view text, Visit visit) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
-    text.remove_prefix(kByteOrderMark.size());
-  }
-  LineReader reader(text);
+  LineReader reader(without_byte_order_mark(text));
   Statement statement;
+  const auto keyword_of = [](std::string_view line) {
+    return line.substr(0, std::min(line.find_first_of(" \t"), line.size()));
+  };
   const auto take = [&](std::string_view line) {
     line = trimmed(line);
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
+    line = line.substr(0, comment_of(line, takes_name(keyword_of(line))));
     statement.line = reader.number();
-    statement.keyword = line.substr(0, end);
-    // A name may contain the sign, as in "steel#2".
-    const bool named = statement.keyword == "newmtl" || statement.keyword == "usemtl" ||
-                       statement.keyword == "mtllib";
-    std::size_t comment = line.find('#');
-    while (named && comment != std::string_view::npos && line[comment - 1] != ' ' &&
-           line[comment - 1] != '\t') {
-      comment = line.find('#', comment + 1);
-    }
-    line = line.substr(0, comment);
-    statement.keyword = line.substr(0, end);
+    statement.keyword = keyword_of(line);
     statement.rest = trimmed(line.substr(statement.keyword.size()));
     words(statement.rest, statement.values);
     if (!statement.keyword.empty()) visit(statement);
   };
   std::string joined;
   for (std::string_view line; reader.next(line);) {
-    const bool goes_on = !line.empty() && line.back() == '\\';
+    const bool goes_on = !line.empty() && line.back() == '\\' &&
+                         line.find('#') == std::string_view::npos &&
+                         !takes_name(keyword_of(trimmed(joined.empty() ? line : joined)));
     if (goes_on) line.remove_suffix(1);
     if (!goes_on && joined.empty()) {
       take(line);

@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <unordered_map>
 
 #include "model/files/meshes/imported_mesh.h"
 #include "model/files/text_file.h"
@@ -18,16 +20,28 @@ bool same_word(std::string_view word, std::string_view keyword) {
                     [](unsigned char a, unsigned char b) { return std::tolower(a) == b; });
 }
 
+struct HashOfVector {
+  std::size_t operator()(const Vec3& v) const {
+    std::size_t hash = 0;
+    for (const double coordinate : v) hash = hash * 31 + std::hash<double>()(coordinate);
+    return hash;
+  }
+};
+
 class StlReader {
  public:
   explicit StlReader(const MeshSource& source)
-      : file_(source.file), bytes_(source.bytes), lines_(source.bytes) {
+      : file_(source.file),
+        bytes_(source.bytes),
+        text_(without_byte_order_mark(source.bytes)),
+        lines_(text_) {
     imported_.file_normals = FileNormals::of_facets;
   }
 
   // Binary files, too, may begin with "solid": their size tells.
   ImportedMesh run() try {
-    const bool text = same_word(bytes_.substr(0, 5), "solid") &&
+    const std::size_t begin = std::min(text_.find_first_not_of(" \t\r\n"), text_.size());
+    const bool text = same_word(text_.substr(begin, 5), "solid") &&
                       bytes_.substr(0, kHeaderBytes).find('\0') == std::string_view::npos;
     if (binary_size() == bytes_.size() || !text) {
       read_binary();
@@ -61,18 +75,28 @@ class StlReader {
                                   (binary_size() - kHeaderBytes - 4) / kFacetBytes, binary_size(),
                                   bytes_.size()));
     }
+    bool colored = bytes_.substr(0, kHeaderBytes).find("COLOR=") != std::string_view::npos;
     for (std::size_t at = kHeaderBytes + 4; at < bytes_.size(); at += kFacetBytes) {
       std::array<float, 12> numbers;  // the normal first
       std::memcpy(numbers.data(), bytes_.data() + at, sizeof numbers);
       for (std::size_t i = 3; i < numbers.size(); i += 3) {
         add_vertex(Eigen::Vector3f(numbers[i], numbers[i + 1], numbers[i + 2]).cast<double>());
       }
+      colored = colored || bytes_.substr(at + sizeof numbers, 2) != std::string_view("\0", 2);
+    }
+    if (colored) {
+      imported_.mesh.notes.push_back(fmt::format("{}: left out: colors of facets", file_.string()));
     }
   }
 
+  // Corners at the same place are one vertex.
   void add_vertex(const Vec3& position) {
-    const std::uint32_t vertex = imported_.add_vertex(position, Vec3::Zero());
-    if (vertex % 3 == 2) imported_.add_triangle(vertex - 2, vertex - 1, vertex, 0);
+    const auto [known, is_new] = vertices_.try_emplace(position, 0U);
+    if (is_new) known->second = imported_.add_vertex(position, Vec3::Zero());
+    corners_.push_back(known->second);
+    if (corners_.size() < 3) return;
+    imported_.add_triangle(corners_[0], corners_[1], corners_[2], 0);
+    corners_.clear();
   }
 
   void read_text() {
@@ -138,10 +162,12 @@ class StlReader {
   }
 
   const std::filesystem::path& file_;
-  std::string_view bytes_;
+  std::string_view bytes_, text_;
   LineReader lines_;
   unsigned line_ = 0;  // 0 in a binary file
   std::vector<std::string_view> words_;
+  std::unordered_map<Vec3, std::uint32_t, HashOfVector> vertices_;
+  std::vector<std::uint32_t> corners_;  // of the facet
   ImportedMesh imported_;
 };
 

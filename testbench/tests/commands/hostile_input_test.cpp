@@ -251,7 +251,7 @@ TEST_F(HostileInput, SizesAreLimited) {
     corners += fmt::format(" {}", i);
   }
   expect_mesh_refused("a.obj", points + corners,
-                      "the face has 100000 corners, may have at most 4096");
+                      "the face has 100000 corners, may have at most 1024");
   std::string dag;
   for (int i = 1; i <= 26; ++i) dag += fmt::format("{{\"children\":[{},{}]}},", i, i);
   expect_mesh_refused("a.gltf", gltf(dag + R"({"mesh":0})"), "has more than one parent");

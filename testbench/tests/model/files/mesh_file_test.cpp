@@ -58,10 +58,14 @@ TEST_F(MeshFile, MissingNormalsAreWeightedByArea) {
   EXPECT_EQ(notes(mesh), std::vector<std::string>{"a.obj: no normals, smooth normals generated"});
 }
 
-TEST_F(MeshFile, SomeNormalsMissingMeansAllAreGenerated) {
-  const Mesh mesh = load("a.obj", kPoints + "vn 0 0 1\nf 1//1 2//1 3//1\nf 1 4 2\n");
+TEST_F(MeshFile, OnlyMissingNormalsAreGenerated) {
+  const Mesh mesh = load("a.obj", kPoints + "vn 0 1 1\nf 1//1 2//1 3//1\nf 1 4 2\n");
   EXPECT_EQ(notes(mesh), std::vector<std::string>{
-                             "a.obj: some faces have no normals, smooth normals generated"});
+                             "a.obj: some vertices have no normals, smooth normals generated"});
+  for (const std::uint32_t vertex : mesh.faces.at(0).vertices) {
+    EXPECT_EQ(mesh.normals[vertex], Vec3(0, 1, 1).normalized());
+  }
+  EXPECT_EQ(mesh.normals[mesh.faces.at(1).vertices[1]], Vec3(0, -1, 0).cwiseAbs());
 }
 
 TEST_F(MeshFile, SheetSeenFromBothSidesKeepsItsNormals) {
@@ -93,7 +97,8 @@ TEST_F(MeshFile, BadObjNamesTheLine) {
             "a.obj:5: vertex coordinate 1e10 is beyond 1000000000");
   EXPECT_EQ(error("a.obj", kPoints + "v 0 1\nf 1 2 3\n"),
             "a.obj:5: vertex needs three coordinates");
-  EXPECT_EQ(error("a.obj", kPoints + "vn 0 0 0\nf 1//1 2//1 3//1\n"), "a.obj:5: normal is zero");
+  EXPECT_EQ(error("a.obj", kPoints + "vn 0 0 0\nf 1//1 2//1 3//1\n"),
+            "a.obj:6: face refers to vn 1, which is zero or not a number");
 }
 
 TEST_F(MeshFile, NothingToDrawIsRefused) {
@@ -165,7 +170,7 @@ TEST_F(MeshFile, BadPlyNamesTheLine) {
   EXPECT_EQ(error("a.ply", ply(kPlyPoints, "3 0 1 -1\n")),
             "a.ply:13: face 0 refers to vertex -1, but the file has 3 (counted from 0)");
   EXPECT_EQ(error("a.ply", ply("0 0 0\n1 nan 0\n0 1 0\n", "3 0 1 2\n")),
-            "a.ply:11: vertex 1: 'nan' is not a finite number");
+            "a.ply:11: vertex 1: y is nan, must be a number of at most 1000000000");
   EXPECT_EQ(error("a.ply", ply("0 0 0\n1 0\n0 1 0\n", "3 0 1 2\n")),
             "a.ply:11: vertex 1 has too few numbers");
   EXPECT_EQ(error("a.ply", ply(kPlyPoints, "3 0 1 2\n", 2)),
