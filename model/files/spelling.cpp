@@ -23,9 +23,13 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string closest_word(std::string_view word, const std::vector<std::string>& candidates) {
+  constexpr std::size_t kLongestWord =
+      100;  // nobody misspells longer ones, and the time is their square
   std::string best;
+  if (word.size() > kLongestWord) return best;
   std::size_t best_distance = std::min<std::size_t>(3, word.size() / 2 + 1);
   for (const std::string& candidate : candidates) {
+    if (candidate.size() > kLongestWord) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < best_distance) {
       best_distance = distance;

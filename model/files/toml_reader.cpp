@@ -23,7 +23,8 @@ unsigned line_of(const toml::node& node) {
 // recurs) or of memory. Arrays within arrays it limits itself, to a depth of 256.
 class SizeCheck {
  public:
-  SizeCheck(std::string_view text, const std::filesystem::path& file) : text_(text), file_(file) {}
+  SizeCheck(std::string_view text, std::filesystem::path file)
+      : text_(text), file_(std::move(file)) {}
 
   void run() {
     while (at_ < text_.size()) step();
@@ -104,7 +105,7 @@ class SizeCheck {
   }
 
   const std::string_view text_;
-  const std::filesystem::path& file_;
+  const std::filesystem::path file_;
   std::size_t at_ = 0, dots_ = 0, bytes_ = 0;
 };
 
@@ -235,8 +236,14 @@ toml::node* child_of(toml::node& node, std::string_view key) {
 
 // A table whose only key is `value`.
 toml::table parse_value(const std::string& text) {
+  const std::string line = "value = " + text;
+  SizeCheck(line, "the value").run();
   try {
-    return toml::parse("value = " + text);
+    toml::table table = toml::parse(line);
+    if (table.size() > 1) {
+      throw InputError(fmt::format("{}: more than one value", excerpt(text)));
+    }
+    return table;
   } catch (const toml::parse_error&) {
     return toml::table{{"value", text}};
   }

@@ -25,7 +25,7 @@ struct NumberRange {  // inclusive
 
 // Larger files are refused. Also refused are keys of more than 64 parts, and texts whose keys and
 // values would take more than 320 MiB.
-constexpr std::size_t kMaxTomlBytes = std::size_t{64} << 20;
+constexpr std::size_t kMaxTomlBytes = std::size_t{32} << 20;
 
 // A handle to one table of a parsed file; copies share the file and the registered keys.
 class TomlTable {

@@ -16,6 +16,7 @@ namespace phongpipe {
 namespace {
 
 constexpr std::array<const char*, 6> kVertexColumns = {"x", "y", "z", "nx", "ny", "nz"};
+constexpr std::size_t kMaxCsvBytes = std::size_t{64} << 20;
 constexpr std::size_t kColumns = 3 * kVertexColumns.size();
 
 std::string column_name(std::size_t column) {
@@ -43,11 +44,12 @@ class CsvReader {
       if (trimmed(line).empty()) {
         continue;
       }
-      const std::vector<std::string_view> cells = split(line, ',');
-      if (cells.size() != kColumns) {
-        fail(fmt::format("{} columns, must be {}: x0,y0,z0,nx0,ny0,nz0,x1,...,nz2", cells.size(),
+      const auto columns = static_cast<std::size_t>(1 + std::count(line.begin(), line.end(), ','));
+      if (columns != kColumns) {
+        fail(fmt::format("{} columns, must be {}: x0,y0,z0,nx0,ny0,nz0,x1,...,nz2", columns,
                          kColumns));
       }
+      const std::vector<std::string_view> cells = split(line, ',');
       if (header_seen) {
         triangles.push_back(read_row(cells));
       } else {
@@ -164,7 +166,7 @@ std::string dump_header(std::size_t lights) {
 
 std::vector<ScreenTriangle> read_triangle_csv(const std::filesystem::path& file,
                                               const Image& image) {
-  return parse_triangle_csv(read_whole_file(file), file, image);
+  return parse_triangle_csv(read_whole_file(file, kMaxCsvBytes), file, image);
 }
 
 std::vector<ScreenTriangle> parse_triangle_csv(const std::string& text,

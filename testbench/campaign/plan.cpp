@@ -28,6 +28,11 @@ std::pair<std::string, std::string> split_at_equals(const std::string& text,
 
 // Splits at commas outside brackets, so that a value may be an array.
 std::vector<std::string> list_items(const std::string& text) {
+  constexpr std::size_t kMaxBytes = 65536;
+  if (text.size() > kMaxBytes) {
+    throw InputError(
+        fmt::format("{}: the values of a key may take at most {} bytes", excerpt(text), kMaxBytes));
+  }
   std::vector<std::string> items(1);
   int depth = 0;
   for (const char c : text) {
@@ -79,6 +84,9 @@ std::vector<std::string> parse_values(const std::string& key, const std::string&
       values.insert(values.end(), range->begin(), range->end());
     } else {
       values.push_back(value);
+    }
+    if (values.size() > kMostPoints) {
+      throw InputError(fmt::format("{}: more than {} values", key, kMostPoints));
     }
   }
   std::set<std::string> distinct;
@@ -263,9 +271,11 @@ std::vector<PlanPoint> sampled_points(const Plan& plan, std::uint64_t size) {
   std::map<std::uint64_t, PlanPoint> chosen;  // in the order of the grid
   // Conditions may leave out all but a few points: give up after many draws.
   const std::uint64_t most_draws = 1000 + 200 * plan.sample;
+  constexpr std::uint64_t kMostVainDraws = 20'000;
   for (std::uint64_t draw = 0;
        draw < most_draws && chosen.size() < plan.sample && places.size() < size; ++draw) {
     const std::uint64_t place = random.below(size);
+    if (chosen.empty() && draw > kMostVainDraws) break;
     if (!places.insert(place).second) continue;
     if (auto point = maker.point(place)) chosen.emplace(place, std::move(*point));
   }
@@ -304,6 +314,11 @@ void read_sweep_file(const std::filesystem::path& file, Plan& plan) {
   if (root.has("scenes")) plan.axes.push_back({"scene", root.values("scenes")});
   plan.base.hardware = root.text("hardware", plan.base.hardware);
   if (root.has("where")) plan.conditions = root.values("where");
+  constexpr std::size_t kMostConditions = 32;
+  if (plan.conditions.size() > kMostConditions) {
+    root.fail("where", fmt::format("{} conditions, may be at most {}", plan.conditions.size(),
+                                   kMostConditions));
+  }
   plan.sample = static_cast<std::uint64_t>(
       root.integer("sample", 1, static_cast<int>(kMostPoints), static_cast<int>(plan.sample)));
   plan.seed = static_cast<std::uint64_t>(

@@ -17,21 +17,13 @@
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
 #include "model/scene/tool_error.h"
+#include "testbench/campaign/database_check.h"
 #include "testbench/system/terminal.h"
 
 namespace phongpipe {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kApplicationId = 0x70686f67;  // "phog"
-constexpr int kSchemaVersion = 1;
-constexpr int kMaxValueBytes = 64 << 20;  // of a text in a row
-
-// Columns of the table `runs` before those of keys and metrics.
-constexpr std::string_view kFixedColumns[] = {
-    "identity", "text",    "command", "scene",       "scene_hash",         "hardware",
-    "outcome",  "message", "bucket",  "verified_by", "configuration_hash", "seconds"};
 
 std::string quoted_name(std::string_view name) {
   std::string result = "\"";
@@ -75,6 +67,8 @@ auto guarded(const fs::path& file, Work work) -> decltype(work()) {
             fmt::format("{}: in use by another process; wait for it, or give it a file "
                         "of its own",
                         name));
+      case -1:  // SQLiteCpp's own: a row that is not there
+      case SQLITE_CONSTRAINT:
       case SQLITE_NOTADB:
       case SQLITE_CORRUPT:
       case SQLITE_FORMAT:
@@ -141,38 +135,6 @@ void create_schema(SQLite::Database& database, const std::string& kind) {
       "seconds REAL NOT NULL";
   for (const Metric& metric : metrics()) columns += ", " + quoted_name(metric.name);
   database.exec(fmt::format("CREATE TABLE runs ({}) WITHOUT ROWID", columns));
-}
-
-// Checks whose file it is, and that it holds nothing but plain tables, none of which is damaged:
-// views, triggers and computed columns would run as programs.
-void check_schema(const fs::path& file, SQLite::Database& database) {
-  const std::string name = printable(file.string());
-  if (database.execAndGet("PRAGMA application_id").getInt() != kApplicationId) {
-    throw InputError(fmt::format("{}: a database, but none of phongpipe's", name));
-  }
-  const int version = database.execAndGet("PRAGMA user_version").getInt();
-  if (version > kSchemaVersion) {
-    throw InputError(fmt::format("{}: written by a later phongpipe (schema {}, this one knows {})",
-                                 name, version, kSchemaVersion));
-  }
-  constexpr const char* kStrangers =
-      "SELECT count(*) FROM sqlite_master WHERE NOT (type = 'table' AND sql LIKE 'CREATE TABLE%' "
-      "AND "
-      "name IN ('about', 'keys', 'shards', 'runs')) AND NOT (type = 'index' AND sql IS NULL)";
-  constexpr const char* kComputed =
-      "SELECT count(*) FROM sqlite_master AS m, pragma_table_xinfo(m.name) AS c WHERE c.hidden <> "
-      "0";
-  for (const char* query : {kStrangers, kComputed}) {
-    if (database.execAndGet(query).getInt() != 0) {
-      throw InputError(
-          fmt::format("{}: a database with tables that phongpipe does not make", name));
-    }
-  }
-  const std::string fault = database.execAndGet("PRAGMA quick_check(1)").getString();
-  if (fault != "ok") {
-    throw InputError(
-        fmt::format("{}: a damaged database ({})", name, printable(excerpt(fault, 200))));
-  }
 }
 
 // The value of a key in a canonical text; none if the text does not have it, as with keys of the
@@ -269,9 +231,7 @@ Store::Store(const fs::path& file, Access access, const std::string& kind)
   if (access == Access::read && !fs::exists(file, none)) {
     throw InputError(fmt::format("{}: no such file", printable(file.string())));
   }
-  if (fs::exists(file, none) && !fs::is_regular_file(file, none)) {
-    throw InputError(fmt::format("{}: not a file", printable(file.string())));
-  }
+  check_files(file);
   std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit of file sizes, a write then fails
   guarded(file_, [&] {
     // What was interrupted while it was written is put in order by opening it for writing.
@@ -281,12 +241,11 @@ Store::Store(const fs::path& file, Access access, const std::string& kind)
     database_ = std::make_unique<SQLite::Database>(
         file_.string(),
         writes ? SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE : SQLite::OPEN_READONLY);
-    database_->exec("PRAGMA trusted_schema = OFF");
-    sqlite3_limit(database_->getHandle(), SQLITE_LIMIT_LENGTH, kMaxValueBytes);
+    distrust(*database_);
     const auto is_empty = [&] {
       return database_->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
     };
-    if (access == Access::read || !is_empty()) check_schema(file_, *database_);
+    if (access == Access::read || !is_empty()) check_contents(file_, *database_);
     if (access == Access::write) {
       // The lock is taken by the transaction below and kept. A rollback journal, for write-ahead
       // logs do not work on the file systems that clusters share.
@@ -498,13 +457,15 @@ ResultTable Store::table() const {
     }
     const std::set<std::string> present = columns_of_runs(*database_);
     for (const Metric& metric : metrics()) {
-      // A file of an earlier version may lack a metric.
-      if (present.count(std::string(metric.name)) != 0) table.columns.emplace_back(metric.name);
+      table.columns.emplace_back(metric.name);
     }
     for (const char* column : {"seconds", "identity", "command"})
       table.columns.emplace_back(column);
     std::vector<std::string> names, order = {"scene"};
-    for (const std::string& column : table.columns) names.push_back(quoted_name(column));
+    for (const std::string& column : table.columns) {
+      // A file of an earlier version may lack a metric.
+      names.push_back(present.count(column) != 0 ? quoted_name(column) : "NULL");
+    }
     for (const std::string& key : varied) order.push_back(quoted_name(key));
     SQLite::Statement statement(
         *database_, fmt::format("SELECT {} FROM runs ORDER BY {}, identity", fmt::join(names, ","),

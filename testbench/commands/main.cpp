@@ -16,8 +16,13 @@ namespace phongpipe {
 namespace {
 
 int fail(int status, const std::string& message) {
-  constexpr std::size_t kMaxMessageBytes = 1000;  // of a line that may quote a file
-  tell("phongpipe: " + printable(excerpt(message, kMaxMessageBytes)));
+  // A line that quotes a file may be long; its reason stands at its end.
+  constexpr std::size_t kMaxBytes = 1000, kEndBytes = 300;
+  std::string shown = message;
+  if (shown.size() > kMaxBytes) {
+    shown = excerpt(shown, kMaxBytes - kEndBytes) + shown.substr(shown.size() - kEndBytes);
+  }
+  tell("phongpipe: " + printable(shown));
   return status;
 }
 

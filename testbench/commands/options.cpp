@@ -48,7 +48,10 @@ std::string metrics_help() {
 }
 
 void add_rtl_option(CLI::App& command, std::filesystem::path& rtl_sources) {
-  command.add_option("--rtl", rtl_sources, "Folder of the RTL, if not the installed")
+  command
+      .add_option(
+          "--rtl", rtl_sources,
+          "Folder of the RTL, if not the installed. It is compiled and run: code with your rights")
       ->type_name("DIR")
       ->check(CLI::ExistingDirectory.description(""));
 }

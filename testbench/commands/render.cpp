@@ -121,8 +121,6 @@ int render(const RenderCommandOptions& options) {
   progress("reading the scene");
   const Scene scene = load_named_scene(options.scene, options.hardware.overrides);
   const Geometry geometry = make_geometry(scene);
-  if (!geometry.notes.empty()) progress.clear();
-  for (const std::string& note : geometry.notes) tell("note: " + printable(note));
   progress("shading");
   std::vector<Color> colors;
   if (!options.output.empty()) {
@@ -138,6 +136,8 @@ int render(const RenderCommandOptions& options) {
     write_png(options.output, picture_of(colors, scene.image.width, scene.image.height,
                                          is_grey(scene, geometry) ? 1 : 3));
   }
+  progress.clear();
+  for (const std::string& note : geometry.notes) tell("note: " + printable(note));
   return 0;
 }
 

@@ -126,7 +126,9 @@ std::string first_complaint(const std::string& text) {
 }
 
 ProcessOutput run_installed(const std::vector<std::string>& command, const fs::path& folder) {
-  ProcessOutput output = run_process(command, folder);
+  // Verilator would read a device that a source includes, and never end.
+  constexpr ProcessLimits kLimits = {std::uint64_t{8} << 30, 1200};
+  ProcessOutput output = run_process(command, folder, kLimits);
   const std::string& tool = command.front();
   // EACCES: a folder of PATH is closed to us, as root's often is.
   if (output.start_error == ENOENT || output.start_error == EACCES) {

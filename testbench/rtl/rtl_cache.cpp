@@ -83,7 +83,13 @@ fs::path user_cache() {
                     "XDG_CACHE_HOME can name another folder",
                     printable(folder.string())));
   }
+  const bool others_could_write = (status.st_mode & (S_IWGRP | S_IWOTH)) != 0;
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0) chmod(folder.c_str(), S_IRWXU);
+  if (others_could_write) {
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+      if (entry.path().extension() == ".so") fs::remove(entry.path(), ignored);
+    }
+  }
   return folder;
 }
 
@@ -98,8 +104,9 @@ void seal(const fs::path& library) {
 }
 
 bool is_sealed(const fs::path& library) {
-  std::error_code none;
-  if (!fs::exists(library, none)) return false;
+  struct stat status {};
+  if (lstat(library.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
+  if (status.st_uid != geteuid() && status.st_uid != 0) return false;  // root may install it
   std::string text;
   try {
     text = read_whole_file(library);

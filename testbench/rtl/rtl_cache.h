@@ -10,13 +10,14 @@
 namespace phongpipe {
 
 // The user's folder, below XDG_CACHE_HOME or the home folder. It is made if there is none, and
-// closed to others. Throws InputError if it belongs to another user, or if there is no home.
+// closed to others; libraries in one that others could write to are removed. Throws InputError if
+// it belongs to another user, or if there is no home.
 std::filesystem::path user_cache();
 
 // Appends the digest of a library that was built. Throws ToolError if it is not there.
 void seal(const std::filesystem::path& library);
-// Whether there is a library that ends with the digest of what is before it. One that is damaged,
-// or was cut, counts as none.
+// Whether there is a library of this user, or of root, that ends with the digest of what is before
+// it. One that is damaged, or was cut, counts as none.
 bool is_sealed(const std::filesystem::path& library);
 
 // While it lives, no other process or thread has one for any of the same files: who comes later

@@ -105,6 +105,22 @@ void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
 }
 
 RtlLibrary::RtlLibrary(const DatapathConfiguration& configuration, const RtlBuildOptions& options) {
+  load(configuration, options);
+  if (interface_ != nullptr) return;
+  // Another library under this name, which somebody has copied there.
+  dlclose(handle_);
+  std::error_code ignored;
+  fs::remove(file_, ignored);
+  load(configuration, options);
+  if (interface_ == nullptr) {
+    throw ToolError(
+        fmt::format("{}: not the RTL that its name says; remove the file to have it "
+                    "built anew",
+                    printable(file_.string())));
+  }
+}
+
+void RtlLibrary::load(const DatapathConfiguration& configuration, const RtlBuildOptions& options) {
   build_missing_rtl({configuration}, options);
   file_ = LibraryFiles(options).file_of(configuration);
   handle_ = dlopen(file_.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -117,12 +133,6 @@ RtlLibrary::RtlLibrary(const DatapathConfiguration& configuration, const RtlBuil
     throw ToolError(fmt::format("{}: {}", printable(file_.string()), dlerror()));
   }
   interface_ = get(rtl_parameters_text(configuration).c_str());
-  if (interface_ == nullptr) {
-    throw ToolError(
-        fmt::format("{}: not the RTL that its name says; remove the file to have it "
-                    "built anew",
-                    printable(file_.string())));
-  }
 }
 
 RtlLibrary::~RtlLibrary() {

@@ -44,6 +44,8 @@ class RtlLibrary {
   const std::filesystem::path& file() const { return file_; }
 
  private:
+  void load(const DatapathConfiguration& configuration, const RtlBuildOptions& options);
+
   std::filesystem::path file_;
   void* handle_ = nullptr;
   const RtlInterface* interface_ = nullptr;

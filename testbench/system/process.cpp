@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -73,12 +74,17 @@ struct Start {
   int folder = -1;  // -1: the current one
   int input, output;
   int failure;  // takes errno where the program cannot be started
+  ProcessLimits limits;
 };
 
 [[noreturn]] void become_program(const Start& start) {
   dup2(start.input, STDIN_FILENO);
   dup2(start.output, STDOUT_FILENO);
   dup2(start.output, STDERR_FILENO);
+  if (start.limits.memory_bytes > 0) {
+    set_limit(RLIMIT_AS, start.limits.memory_bytes, start.limits.memory_bytes);
+    set_limit(RLIMIT_CPU, start.limits.processor_seconds, start.limits.processor_seconds);
+  }
   if (start.folder < 0 || fchdir(start.folder) == 0) {
     execvp(start.arguments.front(), start.arguments.data());
   }
@@ -147,8 +153,9 @@ std::string result_of(const std::function<std::string()>& work) {
 }  // namespace
 
 ProcessOutput run_process(const std::vector<std::string>& command,
-                          const std::filesystem::path& folder) {
+                          const std::filesystem::path& folder, const ProcessLimits& limits) {
   Start start{};
+  start.limits = limits;
   start.arguments.reserve(command.size() + 1);
   for (const std::string& word : command) {
     start.arguments.push_back(const_cast<char*>(word.c_str()));
@@ -177,6 +184,7 @@ Child::Child(const std::function<std::string()>& work) {
   process_ = fork_or_throw();
   if (process_ == 0) {
     end_with_parent(parent, SIGKILL);
+    dup2(STDERR_FILENO, STDOUT_FILENO);  // what simulated RTL prints is no answer of ours
     close(result.read_end);
     write_all(result.write_end, result_of(work));
     std::fflush(nullptr);

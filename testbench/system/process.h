@@ -2,6 +2,7 @@
 // outlives the thread that started it, however that thread ends.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -15,10 +16,17 @@ struct ProcessOutput {
   int start_error = 0;  // errno where the program could not be started
 };
 
+// Of each process that the program starts; 0: none.
+struct ProcessLimits {
+  std::uint64_t memory_bytes = 0;
+  std::uint64_t processor_seconds = 0;
+};
+
 // Runs the program in `folder`, or in the current folder if it is empty, without input. When our
 // process ends, the program and all that it has started are killed.
 ProcessOutput run_process(const std::vector<std::string>& command,
-                          const std::filesystem::path& folder = {});
+                          const std::filesystem::path& folder = {},
+                          const ProcessLimits& limits = {});
 
 // Runs `work` in a child process, in parallel with the caller. get() returns the text of `work`, or
 // throws again an InputError, ToolError or std::bad_alloc of the child, and any other exception as

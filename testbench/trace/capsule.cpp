@@ -150,7 +150,7 @@ Capsule read_capsule(const std::filesystem::path& file, bool anyway) {
   root.text("digest");
   capsule.version = root.text("version");
   const int arithmetic = root.integer("arithmetic", 0, 1'000'000);
-  capsule.name = root.text("name");
+  capsule.name = printable(root.text("name"));
   capsule.found = root.text("found");
   capsule.same_program = parse_hash(root.text("program_hash", "")) == program_hash();
   capsule.rtl_hash = parse_hash(root.text("rtl_hash"));
@@ -160,8 +160,8 @@ Capsule read_capsule(const std::filesystem::path& file, bool anyway) {
     option.put(capsule.options, options.text(option.name, option.get(capsule.options)));
   }
   options.finish();
-  capsule.hardware = parse_hardware(root.text("hardware"), file);
-  capsule.scene = parse_scene(root.text("scene"), file);
+  capsule.hardware = parse_hardware(root.text("hardware"), file.string() + " (its hardware)");
+  capsule.scene = parse_scene(root.text("scene"), file.string() + " (its scene)");
   root.finish();
   capsule.scene.source = capsule.name;
   if (arithmetic != kArithmeticVersion && !anyway) {

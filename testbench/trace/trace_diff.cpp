@@ -184,7 +184,9 @@ TraceContent read_trace(const std::filesystem::path& file) {
       throw InputError(fmt::format("{}: no scope pixel_datapath in it", printable(file.string())));
     }
   };
-  std::vector<Change> changes;  // of one time
+  std::vector<Change> changes;      // of one time, one for each variable
+  std::vector<std::size_t> places;  // in `changes`, by variable; kNone: it has not changed
+  constexpr auto kNone = static_cast<std::size_t>(-1);
   std::uint64_t now = 0;
   const auto apply = [&] {
     for (Follower& follower : content.followers) {
@@ -194,7 +196,10 @@ TraceContent read_trace(const std::filesystem::path& file) {
         if (change.value == "x") follower.gap();
       }
     }
-    for (Change& change : changes) values[change.variable] = std::move(change.value);
+    for (Change& change : changes) {
+      places[change.variable] = kNone;
+      values[change.variable] = std::move(change.value);
+    }
     changes.clear();
   };
   const auto visit = [&](std::uint64_t ps, std::size_t variable, const std::string& value) {
@@ -202,7 +207,13 @@ TraceContent read_trace(const std::filesystem::path& file) {
       apply();
       now = ps;
     }
-    changes.push_back({variable, value});
+    places.resize(values.size(), kNone);
+    if (places[variable] == kNone) {
+      places[variable] = changes.size();
+      changes.push_back({variable, value});
+    } else {
+      changes[places[variable]].value = value;
+    }
   };
   content.complete = WaveReader::read(file, declare, visit).complete;
   apply();

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
@@ -194,6 +195,8 @@ WaveVariable variable_of(const std::string& scope, const std::string& declared, 
   return variable;
 }
 
+constexpr std::size_t kMaxScopes = 256;  // within each other
+
 class VcdParser {
  public:
   VcdParser(const std::string& text, WaveReader& reader, const WaveReader::Declare& declare,
@@ -204,17 +207,19 @@ class VcdParser {
   bool read() {
     for (std::string_view word; next(word);) {
       if (word == "$enddefinitions") {
+        if (defined_) return false;
         defined_ = skip_to_end();
         declare_(reader_.variables);
       } else if (word == "$scope") {
         std::string_view type, name;
         if (!next(type) || !next(name) || !skip_to_end()) return false;
+        if (scopes_.size() == kMaxScopes) return false;
         scopes_.emplace_back(name);
       } else if (word == "$upscope") {
         if (scopes_.empty() || !skip_to_end()) return false;
         scopes_.pop_back();
       } else if (word == "$var") {
-        if (!read_variable()) return false;
+        if (defined_ || !read_variable()) return false;
       } else if (word == "$timescale") {
         if (!read_timescale()) return false;
       } else if (word == "$dumpvars" || word == "$dumpall" || word == "$dumpon" ||
@@ -368,6 +373,8 @@ class ChangeSender {
 
 // In a child.
 void send_fst(const fs::path& file, const Worker::Send& send) {
+  // The library tells of a fault there, and ends the process.
+  if (std::freopen("/dev/null", "w", stderr) == nullptr) return;
   const std::unique_ptr<void, void (*)(void*)> reading(fstReaderOpen(file.c_str()), fstReaderClose);
   void* const fst = reading.get();
   if (fst == nullptr) return;
@@ -376,6 +383,7 @@ void send_fst(const fs::path& file, const Worker::Send& send) {
   std::size_t count = 0;
   while (const fstHier* const item = fstReaderIterateHier(fst)) {
     if (item->htyp == FST_HT_SCOPE) {
+      if (scopes.size() == kMaxScopes) return;
       scopes.emplace_back(item->u.scope.name, item->u.scope.name_length);
     } else if (item->htyp == FST_HT_UPSCOPE) {
       if (scopes.empty()) return;

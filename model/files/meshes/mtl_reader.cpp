@@ -15,9 +15,8 @@ namespace {
 
 // Properties without effect on Phong shading, or that only ray tracing or physically based shading
 // has.
-constexpr std::array<std::string_view, 13> kWithoutEffect = {
-    "illum", "Ni",     "Tf",     "sharpness",      "Pr", "Pm", "Ps", "Pc", "Pcr",
-    "aniso", "anisor", "xalpha", "interpolateMode"};
+constexpr std::array<std::string_view, 10> kWithoutEffect = {
+    "Ni", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor", "interpolateMode"};
 
 // Properties that would change the picture unless they have this value.
 struct LeftOut {
@@ -25,8 +24,7 @@ struct LeftOut {
   double neutral;
 };
 constexpr std::array<LeftOut, 4> kLeftOut = {{{"Ke", 0}, {"d", 1}, {"Tr", 0}, {"Tf", 1}}};
-constexpr std::array<std::string_view, 6> kTextures = {"bump", "disp", "decal",
-                                                       "refl", "norm", "texopt"};
+constexpr std::array<std::string_view, 5> kTextures = {"bump", "disp", "decal", "refl", "norm"};
 
 class MtlReader {
  public:

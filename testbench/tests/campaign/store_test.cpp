@@ -4,6 +4,7 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -201,6 +202,64 @@ TEST_F(StoreTest, KeysAreFilledInFromTheTextOfRuns) {
   EXPECT_EQ(table.text(0, "scene.light.0.color"), "");
   EXPECT_EQ(table.text(1, "scene.light.0.color"), "[1,1,1]");
   expect_refused([&] { store.add_keys({"Stall"}); }, "upper and lower case");
+}
+
+// Databases that somebody made to do harm, or damaged: SQLite runs what is in a schema, follows
+// journals, and takes the name of a missing column for a text.
+TEST_F(StoreTest, WhatPhongpipeDoesNotWriteIsRefused) {
+  const std::pair<const char*, const char*> changes[] = {
+      {"CREATE VIEW v AS SELECT 1", "view 'v' is none that phongpipe makes"},
+      {"CREATE TRIGGER t INSERT ON runs BEGIN SELECT 1; END", "trigger 't' is none"},
+      {"CREATE TABLE t (a)", "table 't' is none that phongpipe makes"},
+      {"CREATE INDEX i ON runs (length(text))", "index 'i' is none"},
+      {"DROP TABLE about; CREATE TABLE about (kind TEXT CHECK (length(kind) > 1))",
+       "table 'about' is none"},
+      {"DROP TABLE about; CREATE TABLE about (kind TEXT DEFAULT (hex(randomblob(9))))",
+       "table 'about' is none"},
+      {"DROP TABLE about; CREATE TABLE about (a, kind TEXT AS (upper(a)))",
+       "table 'about' is none"},
+      {"DROP TABLE shards", "there is no table 'shards'"},
+      {"DELETE FROM about", "it does not say of what campaign it is"},
+      {"ALTER TABLE runs RENAME COLUMN message TO other", "there is no column 'message'"},
+      {"INSERT INTO keys VALUES ('ghost')", "there is no column 'ghost'"},
+      {"UPDATE runs SET outcome = 'zebra'", "unknown outcome 'zebra'"},
+      {"UPDATE runs SET verified_by = 'zebra'", "unknown verified_by 'zebra'"},
+      {"INSERT INTO shards VALUES ('zzz')", "unknown shard 'zzz'"},
+      {"PRAGMA journal_mode = WAL", "has a write-ahead log"},
+  };
+  for (const auto& [change, message] : changes) {
+    SCOPED_TRACE(change);
+    const fs::path path = store_of("a.db", run("a", 8));
+    {
+      SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+      database.exec(change);
+    }
+    expect_refused([&] { Store(path, Store::Access::read); }, message);
+    expect_refused([&] { Store(path, Store::Access::write); }, message);
+    fs::remove(path);
+  }
+}
+
+TEST_F(StoreTest, AJournalIsAFileThatNamesNoOther) {
+  const fs::path path = store_of("a.db", run("a", 8)), journal = file("a.db-journal");
+  fs::remove(journal);
+  mkfifo(journal.c_str(), 0600);
+  expect_refused([&] { Store(path, Store::Access::read); }, "a.db-journal: not a file");
+  fs::remove(journal);
+  // Rolling it back, SQLite would delete the file that it names.
+  std::ofstream(journal, std::ios::binary)
+      << std::string(512, 'x') << "/some/file\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
+  expect_refused([&] { Store(path, Store::Access::read); }, "the journal of several databases");
+  expect_refused([&] { Store(path, Store::Access::write); }, "the journal of several databases");
+}
+
+TEST_F(StoreTest, AMetricThatAnEarlierVersionLackedIsEmpty) {
+  const fs::path path = store_of("a.db", run("a", 8));
+  {
+    SQLite::Database database(path.string(), SQLite::OPEN_READWRITE);
+    database.exec("ALTER TABLE runs DROP COLUMN max_lsb");
+  }
+  EXPECT_EQ(Store(path, Store::Access::read).table().text(0, "max_lsb"), "");
 }
 
 }  // namespace

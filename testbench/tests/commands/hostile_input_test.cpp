@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -239,7 +240,7 @@ TEST_F(HostileInput, SizesAreLimited) {
     EXPECT_EQ(truncate(file(name).c_str(), size), 0);
     return file(name);
   };
-  expect_scene_refused(sparse("big.toml", off_t{1} << 40), "may have at most 67108864");
+  expect_scene_refused(sparse("big.toml", off_t{1} << 40), "may have at most 33554432");
   sparse("big.obj", off_t{1} << 40);
   expect_scene_refused(scene_of("big.obj"), "may have at most 134217728");
   expect_scene_refused(put("s.toml", "a = [" + repeated("1,", 5'000'000) + "]"),
@@ -292,9 +293,8 @@ TEST_F(HostileInput, PicturesAreRight) {
     expect_mesh_refused("a.stl", whole.substr(0, size), "a.stl");
   }
   // Words that are not understood are no reason to draw less.
-  for (const char* line :
-       {"F 1 2 3", "ff 1 2 3", "v 1 2", "v 1 2 x", "v 1 2 3 4 5", "f 1 2 3x", "f 1 2 3/4/5/6",
-        "f 1 2 1e0", "vn 0 0", "usemtl", "mtllib", "call a.obj"}) {
+  for (const char* line : {"F 1 2 3", "ff 1 2 3", "v 1 2", "v 1 2 x", "v 1 2 3 4 5", "f 1 2 3x",
+                           "f 1 2 3/4/5/6", "f 1 2 1e0", "vn 0 0", "mtllib", "call a.obj"}) {
     expect_mesh_refused("a.obj", kTriangle + line + "\n", "a.obj:6: ");
   }
   for (const char* line :
@@ -330,6 +330,141 @@ TEST_F(HostileInput, LegalFilesAreDrawnAndChoicesAreNoted) {
       gltf(R"({"mesh":0})", {}, R"(,"extensionsRequired":["KHR_draco_mesh_compression"])"),
       "requires the extension KHR_draco_mesh_compression");
   expect_mesh_refused("f.gltf", R"({"asset":{"version":"1.0"}})", "version '1.0', must be 2.0");
+}
+
+TEST_F(HostileInput, LinesEndAndGoOnAsTheyShould) {
+  const std::string two = kPoints + "f 1 2 3\nf 2 4 3\n";
+  expect_same("a.obj", kPoints + "# C:\\tex\\\nf 1 2 3\nf 2 4 3\n", two);
+  expect_same("a.obj", kPoints + "g C:\\tex\\\nf 1 2 3\nf 2 4 3\n", two);
+  expect_same("a.obj", kPoints + "f 1 2 3\n# x\rf 2 4 3\n", two);
+  std::string returns = two;
+  for (char& c : returns) c = c == '\n' ? '\r' : c;
+  expect_same("a.obj", returns, two);
+  put("a.mtl", "newmtl a\nmap_Kd C:\\tex\\\nKd 0 1 0\n");
+  put("b.mtl", "newmtl a\nKd 0 1 0\n");
+  EXPECT_EQ(picture_of("a.obj", "mtllib a.mtl\nusemtl a\n" + two),
+            picture_of("b.obj", "mtllib b.mtl\nusemtl a\n" + two));
+  expect_same("a.stl", "\xEF\xBB\xBF\n " + stl(1), kTriangle);
+}
+
+TEST_F(HostileInput, MaterialsAreWhatTheirFilesSay) {
+  const auto shown = [&](const std::string& mtl, const std::string& note = {}) {
+    put("a.mtl", "newmtl Material #25\nKs 1 1 1\nNs 3\n" + mtl + "newmtl Material #26\n");
+    return picture_of("c.obj", "mtllib a.mtl\nusemtl Material #25\n" + kTriangle, note);
+  };
+  EXPECT_EQ(shown("illum 1\n"), shown("Ks 0 0 0\n"));
+  EXPECT_NE(shown("illum 2\n"), shown("Ks 0 0 0\n"));
+  shown("illum 0\n", "left out: illum 0");
+  shown("illum 7\nTf 0 0 0\n", "left out: Tf, illum 7");
+  picture_of("c.obj", "mtllib my none.mtl\n" + kTriangle, "'my none.mtl' not found");
+  picture_of("c.obj", repeated("mtllib a.mtl\n", 65) + "usemtl\n" + kTriangle,
+             "usemtl without a name");
+  picture_of("s.stl",
+             "COLOR=x" + std::string(73, ' ') + bytes<std::uint32_t>({1}) +
+                 bytes<float>({0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0}) + std::string("\0\0", 2),
+             "left out: colors of facets");
+  picture_of("p.ply",
+             ply(kPlyPoints + "1 2\n3 0 1 2\n", "ascii",
+                 "element edge 1\nproperty int vertex1\nproperty int vertex2\nelement face 1"),
+             "left out: edge");
+}
+
+TEST_F(HostileInput, GltfIsWhatItSays) {
+  const auto changed = [](const std::string& from, const std::string& to) {
+    std::string text = gltf();
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  };
+  const std::pair<std::string, const char*> refused[] = {
+      {changed("5123", "5126"), "componentType is 5126, must be one of 5121, 5123, 5125"},
+      {changed("\"type\":\"SCALAR\"", "\"type\":\"SCALAR\",\"normalized\":true"),
+       "indices cannot be normalized"},
+      {changed("{\"asset\"", "{\"scene\":0,\"asset\""), "two keys 'scene'"},
+      {gltf(R"({"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,2]})"),
+       "last row must be 0 0 0 1"},
+      {gltf(R"({"mesh":0})", {}, R"(,"materials":[{"alphaMode":"NONE"}])"), "alphaMode is 'NONE'"},
+      {gltf(R"({"mesh":0})", {},
+            R"(,"extensionsRequired":["KHR_materials_pbrSpecularGlossiness"])"),
+       "requires the extension KHR_materials_pbrSpecularGlossiness"},
+      {"{\n\"asset\" 1}", "a.gltf:2: no JSON"}};
+  for (const auto& [text, message] : refused) expect_mesh_refused("a.gltf", text, message);
+  picture_of("a.gltf", gltf(R"({"mesh":0,"sale":[2,2,2]})"), "left out: nodes.sale");
+  picture_of(
+      "a.gltf",
+      gltf(R"({"mesh":0})", {}, R"(,"materials":[{"alphaMode":"BLEND","emissiveFactor":[0,1,0]}])"),
+      "left out: emission, transparency");
+  expect_same("a.gltf", gltf(R"({"children":[1,2]},{"mesh":0,"scale":[0,0,0]},{"mesh":0})"),
+              kTriangle);
+  // Nobody waits for a quadratic search: fifty thousand nodes, each drawn.
+  std::string nodes, children;
+  for (int i = 1; i <= 50000; ++i) {
+    nodes += R"(,{"mesh":0})";
+    children += (i > 1 ? "," : "") + std::to_string(i);
+  }
+  expect_same("a.gltf", gltf("{\"children\":[" + children + "]}" + nodes), kTriangle);
+}
+
+TEST_F(HostileInput, PolygonsThatTouchThemselvesOrAreNotFlatAreCut) {
+  const auto same = [&](const std::string& points, const std::string& polygon,
+                        const std::string& triangles) {
+    expect_same("a.obj", points + polygon, points + triangles);
+  };
+  same("v 0 .4 0\nv .4 0 0\nv .8 .2 0\nv .6 .6 0\nv .4 .8 0\n", "f 1 2 3 4 5 3\n",
+       "f 1 2 3\nf 3 4 5\n");
+  // A square with a square hole, and a cut there and back.
+  same("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .3 .3 0\nv .3 .6 0\nv .6 .6 0\nv .6 .3 0\n",
+       "f 1 2 3 4 1 5 6 7 8 5\n",
+       "f 1 2 8\nf 1 8 5\nf 2 3 7\nf 2 7 8\nf 3 4 6\nf 3 6 7\nf 4 1 5\nf 4 5 6\n");
+  picture_of("a.obj", "v 0 0 0\nv 1 0 -2\nv 1 1 1\nv 0 1 -1\nf 1 2 3 4\n");
+  expect_mesh_refused("a.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 .9 0\nf 1 2 3 4\n",
+                      "a.obj:5: the outline of the face with 4 corners crosses itself");
+  expect_mesh_refused(  // a star
+      "a.obj", "v 0 1 0\nv .6 -.8 0\nv -.95 .3 0\nv .95 .3 0\nv -.6 -.8 0\nf 5 4 3 2 1\n",
+      "crosses itself");
+}
+
+// The limit of processor time holds whatever the user's own is.
+TEST_F(HostileInput, LimitsAreWithinThoseOfTheUser) {
+  put("a.obj", kTriangle);
+  const ProcessOutput output =
+      run_process({"sh", "-c",
+                   fmt::format("ulimit -t 20; {} render {} -o {}", PHONGPIPE_PROGRAM,
+                               scene_of("a.obj"), file("a.png"))});
+  EXPECT_EQ(output.status, 0) << output.text;
+}
+
+TEST_F(HostileInput, SettingsAndSweepsAreLimitedToo) {
+  const std::string deep = "a" + repeated(".a", 60000);
+  const std::vector<std::string> values = {"{" + deep + "=1}", "64\n[image]\nheight=5",
+                                           "64\n[" + deep};
+  for (const std::string& value : values) {
+    const ProcessOutput output =
+        run({"render", "sphere", "--set", "scene.image.width=" + value, "-o", file("a.png")});
+    EXPECT_EQ(output.status, 2);
+    EXPECT_EQ(lines_of(output.text), 1);
+  }
+  const auto sweep = [&](const std::string& text, const std::string& message) {
+    const double before = processor_seconds();
+    expect_refused({"sweep", put("s.toml", text), "--db", file("s.db")}, message);
+    expect_modest(processor_seconds() - before);
+  };
+  const std::string scenes = "scenes = [\"sphere\"]\n";
+  sweep(scenes + "[vary]\nseed = [1, 2]\n[set]\n\"scene.image.width\" = \"{" + deep + "=1}\"\n",
+        "at most 64 parts");
+  std::string ranges, conditions;
+  for (int i = 0; i < 100; ++i) {
+    ranges += fmt::format("\"{}:{}\",", i * 100000, i * 100000 + 99999);
+    conditions += "\"seed>0\",";
+  }
+  sweep(scenes + "[vary]\nseed = [" + ranges + "]\n", "more than 100000 values");
+  sweep(scenes + "where = [" + conditions + "]\n[vary]\nseed = [1, 2]\n",
+        "100 conditions, may be at most 32");
+  sweep(scenes + "sample = 100000\nwhere = \"0\"\n[vary]\nseed = \"1:99999\"\nstall = \"0:9\"\n",
+        "no point is left");
+  sweep(scenes + "[vary]\nseed = \"" + repeated("1,", 50000) + "1\"\n", "at most 65536 bytes");
+  // The end of a long message is its reason.
+  expect_refused({"verify", "sphere", "--set", "technology=" + std::string(3000, 'a')},
+                 "generic, ice40-hx8k");
 }
 
 }  // namespace

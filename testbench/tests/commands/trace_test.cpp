@@ -95,5 +95,36 @@ TEST_F(TraceProgram, AFaultIsNamedTracedAndReplayed) {
       << mended.text;
 }
 
+// The library that reads FST files trusts them; it crashes, loops and ends the process.
+TEST_F(TraceProgram, DamagedWaveformsAreRefused) {
+  const std::string whole = file("t.fst"), damaged = file("d.fst");
+  ASSERT_EQ(run({"trace", "sphere", "--worst", "-o", whole}).status, 0);
+  const std::string bytes = read_whole_file(whole);
+  const auto expect_contained = [&](const std::string& contents) {
+    std::ofstream(damaged, std::ios::binary) << contents;
+    const ProcessOutput output = run({"diff-traces", damaged, whole});
+    EXPECT_LE(output.status, 2) << output.text;
+    EXPECT_EQ(output.status == 2 ? lines_of(output.text) : 1, 1) << output.text;
+  };
+  for (const std::size_t cut : {1U, 4U, 1500U, 5000U}) {
+    expect_contained(bytes.substr(0, bytes.size() - cut));
+  }
+  for (std::size_t at = 200; at < bytes.size(); at += bytes.size() / 25) {
+    std::string changed = bytes;
+    changed[at] = static_cast<char>(changed[at] ^ 0xFF);
+    expect_contained(changed);
+  }
+  const std::string head =
+      "$scope module pixel_datapath $end\n$var wire 1 ! clk $end\n$upscope $end\n"
+      "$enddefinitions $end\n";
+  std::string scopes;
+  for (int i = 0; i < 300; ++i) scopes += "$scope module a $end\n";
+  for (const std::string& text :
+       {head + "$var wire 1 \" late $end\n#0\n1\"\n", head + head, scopes + head}) {
+    write("a.vcd", text);
+    expect_refused({"diff-traces", file("a.vcd"), file("a.vcd")}, "no VCD or FST file");
+  }
+}
+
 }  // namespace
 }  // namespace phongpipe

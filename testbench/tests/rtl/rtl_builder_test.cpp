@@ -238,6 +238,25 @@ TEST_F(RtlBuilder, ADamagedLibraryIsBuiltAgain) {
   }
 }
 
+TEST_F(RtlBuilder, ALibraryOfAnotherConfigurationOrUserIsBuiltAgain) {
+  RtlBuildOptions options;
+  options.sources = rtl();
+  options.destination = cache();
+  std::ofstream(rtl() / "color_sum.sv", std::ios::app) << "//\n";  // not what is installed
+  FrameConfiguration other;
+  other.channels = 3;
+  const fs::path file = RtlLibrary(FrameConfiguration(), options).file(),
+                 others = RtlLibrary(other, options).file();
+  fs::remove(file);
+  fs::copy_file(others, file);
+  EXPECT_EQ(RtlLibrary(FrameConfiguration(), options).file(), file);
+  EXPECT_NE(read_whole_file(file), read_whole_file(others));
+  if (geteuid() == 0) {  // only root can give a file away
+    ASSERT_EQ(chown(file.c_str(), 12345, 12345), 0);
+    EXPECT_FALSE(is_sealed(file));
+  }
+}
+
 TEST_F(RtlBuilder, WhoNeedsTheSameRtlAtOnceBuildsItOnce) {
   pretend("g++",
           fmt::format("echo built >> '{}'\nexec /usr/bin/g++ \"$@\"", (folder_ / "log").string()));
@@ -271,8 +290,14 @@ TEST_F(RtlBuilder, TheCacheBelongsToTheUserAlone) {
   };
   EXPECT_EQ(user_cache(), folder_ / "home" / "phongpipe");
   EXPECT_EQ(mode(user_cache()), 0700U);
-  fs::permissions(user_cache(), fs::perms(0777));
+  const fs::path library = user_cache() / "a.so";
+  std::ofstream(library) << "x";
+  fs::permissions(user_cache(), fs::perms(0755));
   EXPECT_EQ(mode(user_cache()), 0700U) << "made by a version that left it open";
+  EXPECT_TRUE(fs::exists(library));
+  fs::permissions(user_cache(), fs::perms(0777));
+  EXPECT_EQ(mode(user_cache()), 0700U);
+  EXPECT_FALSE(fs::exists(library)) << "anybody may have put it there";
   if (geteuid() == 0) {  // only root can give a folder away
     ASSERT_EQ(chown(user_cache().c_str(), 12345, 12345), 0);
     EXPECT_THROW(user_cache(), InputError);
