@@ -47,6 +47,7 @@ std::string without_names(const std::string& sql) {
 template <typename Enum, int kCount>
 std::string quoted_names() {
   std::vector<std::string> names;
+  names.reserve(kCount);
   for (int i = 0; i < kCount; ++i) names.push_back(fmt::format("'{}'", name(static_cast<Enum>(i))));
   return fmt::format("{}", fmt::join(names, ", "));
 }

@@ -162,7 +162,7 @@ class GltfReader {
       if (!move.empty() || !turn.empty() || !scale.empty()) {
         throw MeshFault("it has a matrix and also translation, rotation or scale");
       }
-      const Matrix4 matrix = Eigen::Map<const Matrix4>(whole.data());
+      Matrix4 matrix = Eigen::Map<const Matrix4>(whole.data());
       if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) {
         throw MeshFault("its matrix is a projection: the last row must be 0 0 0 1");
       }

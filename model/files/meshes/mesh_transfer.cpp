@@ -7,6 +7,7 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <utility>
 
 #include "model/files/text_file.h"
 #include "model/scene/input_error.h"
@@ -82,12 +83,10 @@ void decode(const Channel& channel, const MeshFormat& format, const fs::path& fi
   MeshSource source{file, bytes, [&](const std::string& name) {
                       channel.send(kRequest, name);
                       const Channel::Header answer = channel.receive_header();
-                      std::optional<std::string> text;
-                      if (answer.kind == kFile) {
-                        text.emplace(answer.size, '\0');
-                        channel.receive(text->data(), text->size());
-                      }
-                      return text;
+                      if (answer.kind == kNoFile) return std::optional<std::string>();
+                      std::string text(answer.size, '\0');
+                      channel.receive(text.data(), answer.size);
+                      return std::make_optional(std::move(text));
                     }};
   std::string error;
   try {

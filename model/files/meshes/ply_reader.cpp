@@ -270,10 +270,12 @@ class PlyReader {
 
   void read_list(const Property& property, bool wanted) {
     const double count = read(*property.count);
-    if (!(count >= 0 && count == std::floor(count))) {
-      fail(fmt::format("{}: list length {} is not a whole number", item(), count));
+    constexpr double kMost = 1e9;
+    if (!(count >= 0 && count <= kMost && count == std::floor(count))) {
+      fail(fmt::format("{}: list length {} is not a whole number up to {}", item(), count, kMost));
     }
-    for (double i = 0; i < count; ++i) {
+    const auto length = static_cast<std::uint64_t>(count);
+    for (std::uint64_t i = 0; i < length; ++i) {
       if (wanted) {
         list_.push_back(read(property.type));
       } else {

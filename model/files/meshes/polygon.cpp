@@ -9,9 +9,9 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// Larger polygons that touch themselves so that no ear is found are refused: every pair of corners
-// that meet may have to be tried.
-constexpr std::size_t kMaxTouchingCorners = 64;
+// A polygon that touches itself so that no ear is found is cut in two where it does, and the parts
+// again. Which of the places is right is tried, so often.
+constexpr int kMaxAttempts = 64;
 
 // Twice the area of a triangle, positive if it goes counter-clockwise.
 double area(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -189,14 +189,16 @@ bool is_flat(const std::vector<Vec3>& corners) {
 
 namespace {
 
-std::optional<Triangles> cut(const std::vector<Vec2>& points);
+// `attempts`: how often a polygon that touches itself may still be cut in two to try.
+std::optional<Triangles> cut(const std::vector<Vec2>& points, int& attempts);
 
 // Cuts a polygon that meets itself at a corner into two, which go around in the same sense.
-std::optional<Triangles> cut_where_it_touches(const std::vector<Vec2>& points) {
+std::optional<Triangles> cut_where_it_touches(const std::vector<Vec2>& points, int& attempts) {
   const auto count = static_cast<std::uint32_t>(points.size());
   for (std::uint32_t i = 0; i < count; ++i) {
     for (std::uint32_t j = i + 1; j < count; ++j) {
       if (points[i] != points[j]) continue;
+      if (--attempts < 0) return std::nullopt;
       std::optional<Triangles> whole = Triangles();
       for (const bool inner : {true, false}) {
         std::vector<std::uint32_t> part;
@@ -204,8 +206,9 @@ std::optional<Triangles> cut_where_it_touches(const std::vector<Vec2>& points) {
           if ((k >= i && k < j) == inner) part.push_back(k);
         }
         std::vector<Vec2> part_points;
+        part_points.reserve(part.size());
         for (const std::uint32_t k : part) part_points.push_back(points[k]);
-        const auto triangles = cut(part_points);
+        const auto triangles = cut(part_points, attempts);
         if (!triangles) {
           whole.reset();
           break;
@@ -218,13 +221,13 @@ std::optional<Triangles> cut_where_it_touches(const std::vector<Vec2>& points) {
   return std::nullopt;
 }
 
-std::optional<Triangles> cut(const std::vector<Vec2>& points) {
+std::optional<Triangles> cut(const std::vector<Vec2>& points, int& attempts) {
   if (points.size() < 3) return Triangles();  // a spike
   const EarClipper clipper(points);
   if (clipper.convex()) return fan(points.size());
   if (clipper.crosses_itself()) return std::nullopt;
   if (auto triangles = EarClipper(points).run()) return triangles;
-  return points.size() > kMaxTouchingCorners ? std::nullopt : cut_where_it_touches(points);
+  return cut_where_it_touches(points, attempts);
 }
 
 }  // namespace
@@ -233,8 +236,11 @@ std::optional<Triangles> cut_polygon(const std::vector<Vec3>& corners) {
   if (is_flat(corners)) return fan(corners.size());
   const Vec3 normal = area_vector(corners);
   if (normal.isZero(0)) return std::nullopt;
-  if (auto triangles = cut(along_axis(corners, normal))) return triangles;
-  return cut(along_normal(corners, normal));
+  for (const auto& points : {along_axis(corners, normal), along_normal(corners, normal)}) {
+    int attempts = kMaxAttempts;
+    if (auto triangles = cut(points, attempts)) return triangles;
+  }
+  return std::nullopt;
 }
 
 }  // namespace phongpipe

@@ -82,7 +82,7 @@ class StlReader {
       for (std::size_t i = 3; i < numbers.size(); i += 3) {
         add_vertex(Eigen::Vector3f(numbers[i], numbers[i + 1], numbers[i + 2]).cast<double>());
       }
-      colored = colored || bytes_.substr(at + sizeof numbers, 2) != std::string_view("\0", 2);
+      colored = colored || bytes_.substr(at + sizeof numbers, 2) != std::string(2, '\0');
     }
     if (colored) {
       imported_.mesh.notes.push_back(fmt::format("{}: left out: colors of facets", file_.string()));

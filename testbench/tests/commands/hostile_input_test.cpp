@@ -416,6 +416,11 @@ TEST_F(HostileInput, PolygonsThatTouchThemselvesOrAreNotFlatAreCut) {
        "f 1 2 3 4 1 5 6 7 8 5\n",
        "f 1 2 8\nf 1 8 5\nf 2 3 7\nf 2 7 8\nf 3 4 6\nf 3 6 7\nf 4 1 5\nf 4 5 6\n");
   picture_of("a.obj", "v 0 0 0\nv 1 0 -2\nv 1 1 1\nv 0 1 -1\nf 1 2 3 4\n");
+  // Found by fuzzing: where to cut a polygon that touches itself often was tried in every order.
+  expect_mesh_refused("a.obj",
+                      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 5 0 0\nv 2 1 0\nv .4 0 0\nv 0 0 0\n"
+                      "f 1 4 6 2 2 3 1 4 7 1 4 2 2 3 4 1 1 4 7 6 2 2 3 1 4\n",
+                      "crosses itself");
   expect_mesh_refused("a.obj", "v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 .9 0\nf 1 2 3 4\n",
                       "a.obj:5: the outline of the face with 4 corners crosses itself");
   expect_mesh_refused(  // a star
