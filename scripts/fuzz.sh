@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # fuzz.sh SECONDS [TARGET…]: fuzzes what reads files, each target of testbench/fuzz/ for SECONDS, two at
 # a time, under the address and undefined-behaviour sanitizers. Ends with a table: executions, edges
-# covered, findings. Inputs that were worth keeping are added to build-sanitized/corpus/TARGET.
+# covered, findings. Inputs that were worth keeping are added to build-fuzz/corpus/TARGET.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if [ $# -lt 1 ]; then
@@ -11,8 +11,10 @@ fi
 seconds=$1
 shift
 scripts/install.sh fuzz
-folder=build-sanitized
-scripts/build_sanitized.sh fuzz_targets
+folder=build-fuzz
+scripts/build.sh "$folder" fuzz_targets -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS="-O1 -g1" \
+  -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DPHONGPIPE_SANITIZE=ON \
+  -DPHONGPIPE_FUZZ=ON -DPHONGPIPE_TESTS=OFF -DPHONGPIPE_BENCHMARKS=OFF
 targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
   for source in testbench/fuzz/*_fuzz.cpp; do targets+=("$(basename "$source" _fuzz.cpp)"); done
@@ -33,7 +35,7 @@ fuzz() {
   local words=testbench/fuzz/dictionaries/$3.dict options=()
   if [ -f "$words" ]; then options+=("-dict=$words"); fi
   "$folder/bin/${target}_fuzz" "${corpora[@]}" "${options[@]}" -max_total_time="$seconds" \
-    -timeout=10 -rss_limit_mb=1024 -max_len=65536 -artifact_prefix="$folder/findings/$target-" \
+    -timeout=30 -rss_limit_mb=1024 -max_len=65536 -artifact_prefix="$folder/findings/$target-" \
     -print_final_stats=1 >"$folder/findings/$target.log" 2>&1
 }
 failed=0

@@ -36,7 +36,7 @@ constexpr std::array kAllowedCalls = {
 };
 
 // All other system calls fail. Where the kernel has no seccomp, the limits must do.
-void filter_system_calls() {
+[[maybe_unused]] void filter_system_calls() {
   const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ERRNO(EPERM));
   if (filter == nullptr) return;
   for (const int call : kAllowedCalls) seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 0);
@@ -51,11 +51,13 @@ void confine(const ChildLimits& limits) {
   limit_memory(limits.memory_bytes);
   limit_processor_time(limits.processor_seconds);
   close_range(1, ~0U, 0);  // 0 is the channel
+  std::set_new_handler([] { _exit(kNoMemory); });
+#ifndef __SANITIZE_ADDRESS__  // it opens files of its own where an exception is thrown
   for (const int resource : {RLIMIT_NOFILE, RLIMIT_FSIZE, RLIMIT_NPROC, RLIMIT_CORE}) {
     set_limit(resource, 0, 0);
   }
-  std::set_new_handler([] { _exit(kNoMemory); });
   filter_system_calls();
+#endif
 }
 
 [[noreturn]] void run_child(int socket, pid_t parent, const ChildLimits& limits,

@@ -71,7 +71,8 @@ bool lock_byte(int file, off_t place, int command) {
 }  // namespace
 
 fs::path user_cache() {
-  const fs::path home = cache_home(), folder = home / "phongpipe";
+  const fs::path home = cache_home();
+  fs::path folder = home / "phongpipe";
   std::error_code ignored;  // where there is no room for it, who builds there tells
   fs::create_directories(home, ignored);
   mkdir(folder.c_str(), S_IRWXU);

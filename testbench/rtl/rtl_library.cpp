@@ -89,6 +89,7 @@ void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
   std::vector<RtlTarget> missing = missing_of(configurations, files);
   if (missing.empty()) return;
   std::vector<fs::path> targets;
+  targets.reserve(missing.size());
   for (const RtlTarget& target : missing) targets.push_back(target.file);
   const auto tell = [&](const char* more) {
     if (!options.progress) return;

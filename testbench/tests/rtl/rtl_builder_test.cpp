@@ -227,15 +227,15 @@ TEST_F(RtlBuilder, ADamagedLibraryIsBuiltAgain) {
   const std::string whole = read_whole_file(file);
   std::string changed = whole;
   changed[whole.size() / 2] ^= 1;
-  for (const std::string& damaged : {whole.substr(0, whole.size() / 2),
-                                     whole.substr(0, whole.size() - 1), changed, whole + "x"}) {
+  for (const std::string& damaged : {changed, whole.substr(0, whole.size() - 1), whole + "x",
+                                     std::string(), whole.substr(0, whole.size() / 2)}) {
     // A new file: the library may still be mapped.
     fs::remove(file);
     std::ofstream(file, std::ios::binary) << damaged;
     EXPECT_FALSE(is_sealed(file));
-    EXPECT_EQ(RtlLibrary(FrameConfiguration(), options).file(), file);
-    EXPECT_TRUE(is_sealed(file));
   }
+  EXPECT_EQ(RtlLibrary(FrameConfiguration(), options).file(), file);
+  EXPECT_TRUE(is_sealed(file));
 }
 
 TEST_F(RtlBuilder, ALibraryOfAnotherConfigurationOrUserIsBuiltAgain) {
