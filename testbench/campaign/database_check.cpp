@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
-#include <set>
-#include <string>
 #include <vector>
 
 #include "model/files/text_file.h"
@@ -101,9 +99,7 @@ class ContentsCheck {
 
   // Those of metrics may be missing in the file of an earlier version.
   void check_columns() {
-    std::set<std::string> present;
-    SQLite::Statement columns(database_, "SELECT name FROM pragma_table_info('runs')");
-    while (columns.executeStep()) present.insert(columns.getColumn(0).getString());
+    const std::set<std::string> present = columns_of_runs(database_);
     std::vector<std::string> needed(kFixedColumns.begin(), kFixedColumns.end());
     SQLite::Statement keys(database_, "SELECT name FROM keys");
     while (keys.executeStep()) needed.push_back(keys.getColumn(0).getString());
@@ -131,6 +127,13 @@ class ContentsCheck {
 };
 
 }  // namespace
+
+std::set<std::string> columns_of_runs(SQLite::Database& database) {
+  SQLite::Statement statement(database, "SELECT name FROM pragma_table_info('runs')");
+  std::set<std::string> names;
+  while (statement.executeStep()) names.insert(statement.getColumn(0).getString());
+  return names;
+}
 
 void check_files(const fs::path& file) {
   const std::string name = printable(file.string());

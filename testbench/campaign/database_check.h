@@ -4,6 +4,8 @@
 
 #include <array>
 #include <filesystem>
+#include <set>
+#include <string>
 #include <string_view>
 
 namespace SQLite {
@@ -19,6 +21,9 @@ constexpr int kSchemaVersion = 1;
 constexpr std::array<std::string_view, 12> kFixedColumns = {
     "identity", "text",    "command", "scene",       "scene_hash",         "hardware",
     "outcome",  "message", "bucket",  "verified_by", "configuration_hash", "seconds"};
+
+// The names of the columns of the table `runs`.
+std::set<std::string> columns_of_runs(SQLite::Database& database);
 
 // Before it is opened. The file and those that SQLite keeps beside it are files, if they are there:
 // it would wait for a pipe. The journal names no other: rolling it back would delete that file.

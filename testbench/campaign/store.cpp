@@ -98,13 +98,6 @@ std::vector<std::string> first_column(const SQLite::Database& database, const st
   return texts;
 }
 
-std::set<std::string> columns_of_runs(SQLite::Database& database) {
-  SQLite::Statement statement(database, "SELECT name FROM pragma_table_info('runs')");
-  std::set<std::string> names;
-  while (statement.executeStep()) names.insert(statement.getColumn(0).getString());
-  return names;
-}
-
 void add_column(SQLite::Database& database, const std::set<std::string>& present,
                 std::string_view name) {
   // Without a type, so that a number stays a number and a text a text.

@@ -237,7 +237,7 @@ class GltfReader {
         imported_.add_triangle(corners[i], corners[i + 1], corners[i + 2], material);
       }
     }
-    if (transform.topLeftCorner<3, 3>().determinant() >= 0) return;
+    if (linear.determinant() >= 0) return;
     for (std::size_t i = first_face; i < imported_.mesh.faces.size(); ++i) {
       // A mirror image turns the other way.
       std::swap(imported_.mesh.faces[i].vertices[1], imported_.mesh.faces[i].vertices[2]);

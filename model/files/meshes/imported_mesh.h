@@ -1,5 +1,5 @@
 // What the readers of mesh files are given and what they make of it. They run in a confined child
-// (mesh_file.cpp) and touch no file themselves.
+// (mesh_transfer.cpp) and touch no file themselves.
 #pragma once
 
 #include <cstdint>
