@@ -1,12 +1,13 @@
-// forward_differencer × series, exponent_rom, color_sum and depth_cue: a span in, one pixel a clock out.
+// A span in, one pixel a clock out: forward_differencer × series, exponent_rom, color_sum and depth_cue, and
+// pixel_queue behind them.
 //
 // DIFFUSE, SPECULAR and DEPTH_CUE leave out the blocks of effects that a scene has not; without its
 // diffuse series a channel's light is the level.
 //
 // A span is taken when span_valid and span_ready; its first pixel is at the output PHONGPIPE_DATAPATH_LATENCY
-// clocks later, and PHONGPIPE_DEPTH_CUE_LATENCY more with DEPTH_CUE. Spans follow each other without a bubble.
-// Each stage holds while the next one is full and moves on when it is not, so a stall at the output closes
-// bubbles before it reaches the input.
+// clocks later, and PHONGPIPE_DEPTH_CUE_LATENCY more with DEPTH_CUE. Spans follow each other without a bubble,
+// those of one pixel, too. A pixel enters the pipeline only if pixel_queue has room for it, and then moves on
+// a stage a clock: nothing in the pipeline waits for the output.
 // Channel 0 is in the low bits of every packed port. span_length is at least 1. The table is loaded
 // through rom_*, one word of every channel a clock, while no pixel is in flight. cue_color must not change
 // while a pixel is in flight.
@@ -87,66 +88,80 @@ module pixel_datapath #(
     GATE_diffuse_needs_DIFFUSE stop ();
   end
 
-  // Stages: fd steps the series; 1 compares and forms the address; 2 reads the table and clamps; 3 adds,
-  // and the output stage is 3 or, where there is depth cueing, what follows it.
-  logic fd_valid, s1_valid, s2_valid, s3_valid;
-  logic [LENGTH_BITS-1:0] fd_remaining;
-  logic [X_BITS-1:0] fd_x, fd_y, s1_x, s1_y, s2_x, s2_y, s3_x, s3_y;
-  logic fd_step_diffuse, fd_step_specular, fd_highlight;
+  // Stages, by the number in a register's name or the index of its bit: 0 the input; 1 the terms of the series;
+  // 2 to 4 the series; 5 address, comparison of the low bits; 6 place in the table, lit; 7 word read, clamped; 8
+  // word; 9 gated word; 10 sum. Depth cueing is 11 to 16. The last one is written to the queue.
+  localparam int LAST = `PHONGPIPE_DATAPATH_LATENCY - 3 + (DEPTH_CUE != 0 ? `PHONGPIPE_DEPTH_CUE_LATENCY : 0);
 
-  logic out_ready;  // of what follows stage 3
-  wire s3_ready = !s3_valid || out_ready;
-  wire s2_ready = !s2_valid || s3_ready;
-  wire s1_ready = !s1_valid || s2_ready;
-  wire fd_last = fd_remaining == 1;
-  wire fd_step = fd_valid && s1_ready;
-  wire [2:0] enable = {s3_ready, s2_ready, s1_ready};
-  wire load = span_valid && span_ready;
+  logic [LAST:0] valid;
+  logic [3:0] first;    // pixel of a span
+  logic [2:1] restart;  // first or second pixel of a span
+  logic after_first;    // the last pixel that left stage 0 was the first of a span
 
-  assign span_ready = !fd_valid || (s1_ready && fd_last);
+  wire unused_control = &{1'b0, first, restart};  // without any series
+
+  // `remaining` pixels of the span, the last one that entered among them; `ending`: they are 2. `open`: the
+  // next one is of another span.
+  logic room, open, ending;
+  logic [LENGTH_BITS-1:0] remaining;
+  assign span_ready = room && open;
+  wire load = span_ready && span_valid;
+  wire enter = load || (room && !open);
 
   always_ff @(posedge clk) begin
-    if (load) begin
-      fd_x <= span_x;
-      fd_y <= span_y;
-      fd_remaining <= span_length;
-      fd_step_diffuse <= span_step_diffuse;
-      fd_step_specular <= span_step_specular;
-      fd_highlight <= span_highlight;
-    end else if (fd_step) begin
-      fd_x <= fd_x + 1'b1;
-      fd_remaining <= fd_remaining - 1'b1;
+    if (room) begin
+      remaining <= open ? span_length : remaining - 1'b1;
+      ending <= open ? span_length == 2 : remaining == 3;
     end
-    if (s1_ready) {s1_x, s1_y} <= {fd_x, fd_y};
-    if (s2_ready) {s2_x, s2_y} <= {s1_x, s1_y};
-    if (s3_ready) {s3_x, s3_y} <= {s2_x, s2_y};
-
+    first <= {first[2:0], load};
+    restart <= {restart[1], first[0] || after_first};
+    if (valid[0]) after_first <= first[0];
     if (reset) begin
-      // A constant that no longer is the number of stages is a width mismatch here.
-      {fd_valid, s1_valid, s2_valid, s3_valid} <= {`PHONGPIPE_DATAPATH_LATENCY{1'b0}};
+      valid <= '0;
+      open <= 1'b1;
     end else begin
-      fd_valid <= load || (fd_valid && !(s1_ready && fd_last));
-      if (s1_ready) s1_valid <= fd_valid;
-      if (s2_ready) s2_valid <= s1_valid;
-      if (s3_ready) s3_valid <= s2_valid;
+      valid <= {valid[LAST-1:0], enter};
+      open <= open ? !load || span_length == 1 : room && ending;
     end
   end
 
-  logic [CHANNELS*ROM_DATA_BITS-1:0] s2_words, s2_increments;
-  logic [CHANNELS-1:0] s1_lit;  // channel by channel: N·L > 0 as its diffuse series has it
-  logic s2_open;                // whether the highlight counts
+  logic [CHANNELS*DIFFUSE_WIDTH-1:0] s1_level, s2_level, s3_level;
+  logic [X_BITS-1:0] s0_x_term, s1_x, s1_y;
+  logic s1_highlight, s1_first_pass;
+  logic [6:2] highlight;  // of the span: whether the word counts
+  span_register #(
+      .WIDTH(X_BITS + 1 + 1 + CHANNELS * DIFFUSE_WIDTH)
+  ) of_span (
+      .clk,
+      .load(first[0]),
+      .start({span_y, span_highlight, span_first_pass, span_level}),
+      .value({s1_y, s1_highlight, s1_first_pass, s1_level})
+  );
+  always_ff @(posedge clk) begin
+    s0_x_term <= (span_x & {X_BITS{load}}) | X_BITS'(!load);
+    if (valid[0]) s1_x <= first[0] ? s0_x_term : s1_x + s0_x_term;
+    highlight <= {highlight[5:2], s1_highlight};
+    s2_level <= s1_level;
+    s3_level <= s2_level;
+  end
+
+  logic [CHANNELS*ROM_DATA_BITS-1:0] s8_words, s8_increments;
+  logic [CHANNELS-1:0] s6_lit;  // channel by channel: N·L > 0 as its diffuse series has it
+  logic s8_open;                // whether the highlight counts
   if (SPECULAR != 0) begin : specular
-    logic [SPECULAR_WIDTH-1:0] fd_specular_v;
+    logic [SPECULAR_WIDTH-1:0] s4_v;
     forward_differencer #(
         .WIDTH(SPECULAR_WIDTH)
     ) specular_series (
         .clk,
-        .load,
-        .step(fd_step && fd_step_specular),
+        .stepping(span_step_specular),
         .start_v(span_specular_v),
         .start_d1(span_specular_d1),
         .start_d2(span_specular_d2),
-        .v(fd_specular_v)
+        .valid(valid[3:0]),
+        .restart,
+        .first,
+        .s4_v
     );
     exponent_rom #(
         .VALUE_WIDTH (SPECULAR_WIDTH),
@@ -157,145 +172,153 @@ module pixel_datapath #(
         .OCTAVES     (ROM_OCTAVES)
     ) rom (
         .clk,
-        .address_enable(s1_ready),
-        .read_enable(s2_ready),
-        .v(fd_specular_v),
-        .word(s2_words),
-        .increment(s2_increments),
+        .s4_v,
+        .s8_word(s8_words),
+        .s8_increment(s8_increments),
         .write(rom_write),
         .write_address(rom_address),
         .write_word(rom_data)
     );
-    logic s1_highlight;
-    logic s1_open;
+    logic s6_facing, s7_open;
     always_ff @(posedge clk) begin
-      if (s1_ready) s1_highlight <= fd_highlight;
-      if (s2_ready) s2_open <= s1_open && s1_highlight;
+      s7_open <= s6_facing && highlight[6];
+      s8_open <= s7_open;
     end
     if (GATE == `PHONGPIPE_GATE_SERIES) begin : gate
-      logic [DIFFUSE_WIDTH-1:0] fd_gate_v;
+      logic [DIFFUSE_WIDTH-1:0] s4_gate;
+      logic s5_zero;
+      logic s5_negative;
       forward_differencer #(
           .WIDTH(DIFFUSE_WIDTH)
       ) gate_series (
           .clk,
-          .load,
-          .step(fd_step && fd_step_diffuse),
+          .stepping(span_step_diffuse),
           .start_v(span_gate_v),
           .start_d1(span_gate_d1),
           .start_d2(span_gate_d2),
-          .v(fd_gate_v)
+          .valid(valid[3:0]),
+          .restart,
+          .first,
+          .s4_v(s4_gate)
       );
-      always_ff @(posedge clk) if (s1_ready) s1_open <= $signed(fd_gate_v) > 0;
-      wire unused_lit = &{1'b0, s1_lit};
+      always_ff @(posedge clk) begin
+        s5_negative <= s4_gate[DIFFUSE_WIDTH-1];
+        s5_zero <= s4_gate == '0;
+        s6_facing <= !s5_negative && !s5_zero;
+      end
+      wire unused_lit = &{1'b0, s6_lit};
     end else begin : no_gate_series
-      assign s1_open = GATE == `PHONGPIPE_GATE_OFF || |s1_lit;
+      assign s6_facing = GATE == `PHONGPIPE_GATE_OFF || |s6_lit;
       wire unused_gate = &{1'b0, span_gate_v, span_gate_d1, span_gate_d2};
     end
   end else begin : no_specular
-    assign {s2_words, s2_increments} = '0;
-    assign s2_open = 1'b0;
-    wire unused = &{1'b0, fd_highlight, fd_step_specular, span_specular_v, span_specular_d1, span_specular_d2,
-                    span_gate_v, span_gate_d1, span_gate_d2, rom_write, rom_address, rom_data, s1_lit};
+    assign {s8_words, s8_increments} = '0;
+    assign s8_open = 1'b0;
+    wire unused = &{1'b0, highlight[6], span_step_specular, span_specular_v, span_specular_d1, span_specular_d2,
+                    span_gate_v, span_gate_d1, span_gate_d2, rom_write, rom_address, rom_data, s6_lit};
   end
 
-  logic [CHANNELS*DIFFUSE_WIDTH-1:0] fd_level;
-  always_ff @(posedge clk) if (load) fd_level <= span_level;
-
   localparam int SUM_BITS = `PHONGPIPE_GUARD_BITS + COLOR_BITS + 1;
-  logic [CHANNELS*SUM_BITS-1:0] s3_sum;
-  logic [CHANNELS*COLOR_BITS-1:0] s3_color;
+  logic [CHANNELS*SUM_BITS-1:0] s10_sum;
+  logic [CHANNELS*COLOR_BITS-1:0] s10_color, last_color;
   for (genvar c = 0; c < CHANNELS; c++) begin : channel
-    logic [DIFFUSE_WIDTH-1:0] fd_diffuse_v;
+    logic [DIFFUSE_WIDTH-1:0] s4_diffuse;
     if (DIFFUSE != 0) begin : diffuse
       forward_differencer #(
           .WIDTH(DIFFUSE_WIDTH)
       ) diffuse_series (
           .clk,
-          .load,
-          .step(fd_step && fd_step_diffuse),
+          .stepping(span_step_diffuse),
           .start_v(span_diffuse_v[c*DIFFUSE_WIDTH+:DIFFUSE_WIDTH]),
           .start_d1(span_diffuse_d1[c*DIFFUSE_WIDTH+:DIFFUSE_WIDTH]),
           .start_d2(span_diffuse_d2[c*DIFFUSE_WIDTH+:DIFFUSE_WIDTH]),
-          .v(fd_diffuse_v)
+          .valid(valid[3:0]),
+          .restart,
+          .first,
+          .s4_v(s4_diffuse)
       );
     end else begin : no_diffuse
-      assign fd_diffuse_v = fd_level[c*DIFFUSE_WIDTH+:DIFFUSE_WIDTH];
+      always_ff @(posedge clk) s4_diffuse <= s3_level[c*DIFFUSE_WIDTH+:DIFFUSE_WIDTH];
     end
     color_sum #(
         .DIFFUSE_WIDTH(DIFFUSE_WIDTH),
         .WORD_BITS(ROM_DATA_BITS)
     ) summation (
         .clk,
-        .enable,
-        .diffuse(fd_diffuse_v),
-        .level(fd_level[c*DIFFUSE_WIDTH+:DIFFUSE_WIDTH]),
-        .lit(s1_lit[c]),
-        .highlight_open(s2_open),
-        .word(s2_words[c*ROM_DATA_BITS+:ROM_DATA_BITS] + s2_increments[c*ROM_DATA_BITS+:ROM_DATA_BITS]),
-        .sum(s3_sum[c*SUM_BITS+:SUM_BITS]),
-        .color(s3_color[c*COLOR_BITS+:COLOR_BITS])
+        .s4_diffuse,
+        .s3_level(s3_level[c*DIFFUSE_WIDTH+:DIFFUSE_WIDTH]),
+        .s6_lit(s6_lit[c]),
+        .s8_open,
+        .s8_word(s8_words[c*ROM_DATA_BITS+:ROM_DATA_BITS]),
+        .s8_increment(s8_increments[c*ROM_DATA_BITS+:ROM_DATA_BITS]),
+        .s10_sum(s10_sum[c*SUM_BITS+:SUM_BITS]),
+        .s10_color(s10_color[c*COLOR_BITS+:COLOR_BITS])
     );
   end
   if (DIFFUSE == 0) begin : unlit
-    wire unused = &{1'b0, fd_step_diffuse, span_diffuse_v, span_diffuse_d1, span_diffuse_d2};
+    wire unused = &{1'b0, span_step_diffuse, span_diffuse_v, span_diffuse_d1, span_diffuse_d2};
   end
 
   if (DEPTH_CUE != 0) begin : cueing
     localparam int FACTOR_BITS = `PHONGPIPE_CUE_FACTOR_BITS;
     localparam int DROPPED = `PHONGPIPE_CUE_FRACTION - FACTOR_BITS;
-    logic s4_valid;
-    logic [X_BITS-1:0] s4_x, s4_y;
-    logic [CUE_WIDTH-1:0] fd_cue_v;
-    logic fd_first_pass, s1_first_pass, s2_first_pass, s3_first_pass;
-    logic [FACTOR_BITS:0] s1_factor, s2_factor, s3_factor;
-    wire s4_ready = !s4_valid || pixel_ready;
-    wire above = |fd_cue_v[CUE_WIDTH-2:`PHONGPIPE_CUE_FRACTION];
-    wire unused_fraction = &{1'b0, fd_cue_v[DROPPED-1:0], s3_color};
+    logic [CUE_WIDTH-1:0] s4_v;
+    logic [10:2] first_pass;  // of the span
+    logic [FACTOR_BITS:0] s5_factor, s6_factor, s7_factor, s8_factor, s9_factor, s10_factor;
+    wire above = |s4_v[CUE_WIDTH-2:`PHONGPIPE_CUE_FRACTION];
+    wire unused_fraction = &{1'b0, s4_v[DROPPED-1:0], s10_color};
 
     forward_differencer #(
         .WIDTH(CUE_WIDTH)
     ) cue_series (
         .clk,
-        .load,
-        .step(fd_step),
+        .stepping(1'b1),
         .start_v(span_cue_v),
         .start_d1(span_cue_d1),
         .start_d2({CUE_WIDTH{1'b0}}),
-        .v(fd_cue_v)
+        .valid(valid[3:0]),
+        .restart,
+        .first,
+        .s4_v
     );
     always_ff @(posedge clk) begin
-      if (load) fd_first_pass <= span_first_pass;
-      if (s1_ready) begin
-        s1_factor <= fd_cue_v[CUE_WIDTH-1] ? '0 : above ? {1'b1, {FACTOR_BITS{1'b0}}}
-                                                        : {1'b0, fd_cue_v[DROPPED+:FACTOR_BITS]};
-        s1_first_pass <= fd_first_pass;
-      end
-      if (s2_ready) {s2_factor, s2_first_pass} <= {s1_factor, s1_first_pass};
-      if (s3_ready) {s3_factor, s3_first_pass} <= {s2_factor, s2_first_pass};
-      if (s4_ready) {s4_x, s4_y} <= {s3_x, s3_y};
-      if (reset) s4_valid <= 1'b0;
-      else if (s4_ready) s4_valid <= s3_valid;
+      first_pass <= {first_pass[9:2], s1_first_pass};
+      s5_factor <= s4_v[CUE_WIDTH-1] ? '0 : above ? {1'b1, {FACTOR_BITS{1'b0}}}
+                                                  : {1'b0, s4_v[DROPPED+:FACTOR_BITS]};
+      {s6_factor, s7_factor, s8_factor, s9_factor, s10_factor} <=
+          {s5_factor, s6_factor, s7_factor, s8_factor, s9_factor};
     end
     for (genvar c = 0; c < CHANNELS; c++) begin : channel
       depth_cue #(
           .SUM_BITS(SUM_BITS)
       ) multiplier (
           .clk,
-          .enable(s4_ready),
-          .sum(s3_sum[c*SUM_BITS+:SUM_BITS]),
-          .cue(s3_first_pass ? cue_color[c*COLOR_BITS+:COLOR_BITS] : '0),
-          .factor(s3_factor),
-          .color(pixel_color[c*COLOR_BITS+:COLOR_BITS])
+          .s10_sum(s10_sum[c*SUM_BITS+:SUM_BITS]),
+          .s10_cue(first_pass[10] ? cue_color[c*COLOR_BITS+:COLOR_BITS] : '0),
+          .s10_factor,
+          .s16_color(last_color[c*COLOR_BITS+:COLOR_BITS])
       );
     end
-    assign out_ready = s4_ready;
-    assign pixel_valid = s4_valid;
-    assign {pixel_x, pixel_y} = {s4_x, s4_y};
   end else begin : no_cueing
-    assign out_ready = pixel_ready;
-    assign pixel_valid = s3_valid;
-    assign {pixel_x, pixel_y} = {s3_x, s3_y};
-    assign pixel_color = s3_color;
-    wire unused = &{1'b0, span_first_pass, span_cue_v, span_cue_d1, cue_color, s3_sum};
+    assign last_color = s10_color;
+    wire unused = &{1'b0, s1_first_pass, span_cue_v, span_cue_d1, cue_color, s10_sum};
   end
+
+  pixel_queue #(
+      .PLACE_BITS(2 * X_BITS),
+      .COLOR_BITS(CHANNELS * COLOR_BITS)
+  ) queue (
+      .clk,
+      .reset,
+      .room,
+      .entered(valid[0]),
+      .place_valid(valid[1]),
+      .place({s1_x, s1_y}),
+      .color_valid(valid[LAST]),
+      .color(last_color),
+      .pixel_valid,
+      .pixel_ready,
+      .pixel_place({pixel_x, pixel_y}),
+      .pixel_color
+  );
 endmodule

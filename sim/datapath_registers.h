@@ -1,29 +1,56 @@
 // pixel_datapath, clock by clock and register by register: what hw/pixel_datapath.sv holds in every
-// clock, computed by the model's blocks. All registers start at 0.
+// clock, computed by the model's blocks.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "model/fixed/exponent_rom.h"
 #include "model/fixed/frame_setup.h"
 #include "sim/clocked_datapath.h"
 
 namespace phongpipe {
 
-// The stages of the pipeline, each with its own valid bit: `step` steps the series (fd_* in RTL),
-// `compare` compares and forms the address (s1_*), `read` reads the table and clamps (s2_*), `add`
-// adds (s3_*), `fade` moves towards the colour of depth cueing (s4_*), where there is one.
-enum class DatapathStage { step, compare, read, add, fade };
+// Stages of the pipeline, by the number that RTL's names have: 0 takes the input, 1 the terms of
+// the series, which are whole in 4; 5 has the address, 6 whether the pixel is lit, 8 the words, 10
+// the sum, and the last one the faded colour under depth cueing.
+constexpr int kSeriesStage = 4;
+constexpr int kSumStage = kDatapathLatency - 3;  // the queue takes 3 clocks
+constexpr int kMostStages = kSumStage + kDepthCueLatency + 1;
 
-// Registers that follow a pixel through all stages behind the first.
-struct StageRegisters {
+constexpr int datapath_stages(const DatapathConfiguration& configuration) {
+  return kSumStage + 1 + (configuration.depth_cue ? kDepthCueLatency : 0);
+}
+
+// What the registers of all stages hold of a pixel. Arrays: channel by channel.
+struct DatapathPixel {
   bool valid = false;
   std::uint16_t x = 0, y = 0;
-  std::int32_t cue_factor = 0;  // not in `fade`
-  bool first_pass = false;      // not in `fade`
+  int step = 0;       // in its span, from 0
+  int remaining = 0;  // pixels of its span, itself among them
+  bool highlight = false, first_pass = false;
+  std::array<std::int64_t, 3> level = {};
+
+  struct Series {  // see hw/forward_differencer.sv
+    std::int64_t term = 0, next_term = 0, last_term = 0, difference = 0, v = 0;
+  };
+  std::array<Series, 3> diffuse;
+  Series specular, gate, cue;
+
+  std::array<std::int32_t, 3> diffuse_cut = {}, level_cut = {}, clamped = {};
+  std::array<bool, 3> lit = {};
+  int address = 0;
+  RomPlaces places;
+  std::array<std::int32_t, 3> word = {}, increment = {}, addend = {};
+  bool open = false;  // whether the word counts
+  std::array<std::int32_t, 3> sum = {};
+  std::int32_t cue_factor = 0;
+  std::array<std::int32_t, 3> own = {};  // its own light less the colour it fades to
+  std::uint32_t color = 0;               // as it leaves; channel 0 in the low byte
 };
 
 class DatapathRegisters : public ClockedDatapath {
@@ -35,87 +62,72 @@ class DatapathRegisters : public ClockedDatapath {
   DatapathOutputs clock(const DatapathInputs& inputs) override;
 
   // The outputs in this clock, before its edge.
-  DatapathOutputs outputs(const DatapathInputs& inputs) const;
+  DatapathOutputs outputs() const;
 
-  // Names as in RTL. Arrays: channel by channel.
-  struct Step {
-    bool valid = false;
-    std::uint16_t x = 0, y = 0;
-    int remaining = 0;
-    bool step_diffuse = false, step_specular = false, highlight = false, first_pass = false;
-    std::array<std::int64_t, 3> level = {};
-    std::array<ForwardDifferencer, 3> diffuse;
-    ForwardDifferencer specular, gate, cue;
-  };
-  struct Compare : StageRegisters {
-    std::array<bool, 3> lit = {};
-    std::array<std::int32_t, 3> diffuse_cut = {}, level_cut = {};
-    int address = 0;
-    bool highlight = false, open = false;  // open: of a separate gate series
-  };
-  struct Read : StageRegisters {
-    std::array<std::int32_t, 3> word = {}, increment = {}, clamped = {};
-    bool open = false;
-  };
-  struct Add : StageRegisters {
-    std::array<std::int32_t, 3> sum = {};
-  };
-  struct Fade : StageRegisters {
-    std::array<std::uint8_t, 3> color = {};
-  };
-  const Step& step() const { return step_; }
-  const Compare& compare() const { return compare_; }
-  const Read& read() const { return read_; }
-  const Add& add() const { return add_; }
-  const Fade& fade() const { return fade_; }
+  const DatapathPixel& in_stage(int stage) const {
+    return stages_[(head_ + static_cast<std::size_t>(stage)) % stages_.size()];
+  }
+  // Pixels that entered before that of a stage, or before the one that will be next in it, and have
+  // not left.
+  std::size_t pixels_after(int stage) const;
+  // Pixels that are known whole and wait in the queue, without the one at the output.
+  std::size_t queued() const { return queue_.size(); }
+  // Free slots of the queue, as RTL counts them.
+  int free_slots() const { return free_; }
   // Words of a channel's table.
   const std::vector<std::int32_t>& table(std::size_t channel) const { return table_[channel]; }
 
-  bool valid(DatapathStage stage) const;
-
  private:
-  struct Ready {
-    bool compare, read, add, fade;  // whether the stage takes what the one before it has
+  // A series at the pixel that entered last.
+  struct Stepper {
+    ForwardDifferencer now;
+    DatapathPixel::Series pixel;
+    void load(const SeriesStart& start, bool stepping);
+    void step(bool second);
   };
-  Ready ready(bool pixel_ready) const;
   std::size_t channels() const { return static_cast<std::size_t>(configuration_.channels); }
-  std::int64_t diffuse_value(std::size_t channel) const;
   void load(const Span& span);
-  void advance(const Ready& ready);
-  std::uint32_t color(std::size_t channel) const;
+  void step();
+  void shade(DatapathPixel& pixel) const;
 
   DatapathConfiguration configuration_;
   OutputColor cue_color_;
   std::array<std::vector<std::int32_t>, 3> table_;
-  Step step_;
-  Compare compare_;
-  Read read_;
-  Add add_;
-  Fade fade_;
+  std::vector<DatapathPixel> stages_;  // a ring
+  std::size_t head_ = 0;               // stage 0
+  DatapathPixel last_;                 // that entered
+  std::array<Stepper, 3> diffuse_;
+  Stepper specular_, gate_, cue_;
+  std::deque<ShadedPixel> queue_;
+  int free_ = kPixelQueueSlots;
+  bool left_ = false;  // a pixel, in the clock before
+  bool pixel_valid_ = false;
+  ShadedPixel output_;
 };
 
 // A register of pixel_datapath: where it is in RTL and here, and how to read it. Waveforms, views,
 // comparisons of registers and the life of a pixel are made from these descriptions.
 struct DatapathSignal {
-  std::string scope;  // the block below pixel_datapath, as "specular.rom"; empty: pixel_datapath
-  std::string name;   // as "address"
-  DatapathStage stage = DatapathStage::step;
-  int width = 1;          // bits
+  std::string scope;    // the block below pixel_datapath, as "specular.rom"; empty: pixel_datapath
+  std::string name;     // as "s5_address"
+  int stage = 0;        // whose pixel it belongs to
+  bool always = false;  // of the control: has a meaning even if no pixel is in the stage
+  int width = 1;        // bits
   int fraction_bits = 0;  // of them, below one unit
   bool is_signed = false;
   std::string unit;    // of the value: "LSB", "address" (of the table), or empty for a plain number
   int rtl_lsb = 0;     // the bit of the RTL's signal that the register begins at
-  std::string packed;  // name of the RTL's signal in pixel_datapath, if it is packed with others
+  std::string packed;  // name of the RTL's signal, if it is packed with others
   std::function<std::int64_t(const DatapathRegisters&)> value;
 
-  // "pixel_datapath.specular.rom.address".
+  // "pixel_datapath.specular.rom".
   std::string block() const;
   std::string full_name() const { return block() + "." + name; }
   // In units.
   double real(std::int64_t bits) const;
 };
 
-// All registers of a configuration, stage by stage, from the input to the output.
+// All registers of a configuration that hold more than the one before them does, stage by stage.
 std::vector<DatapathSignal> datapath_signals(const DatapathConfiguration& configuration);
 
 }  // namespace phongpipe

@@ -2,16 +2,21 @@
 //
 // A pixel enters in cycle `in`, leaves the datapath in `out`, and is read by the framebuffer in
 // `read`. It may enter from cycle `asked`, and occupies the framebuffer for `cost` cycles. The
-// datapath holds `latency` pixels, the queue behind it `depth` pixels:
-//   in(j)   = max(asked, in(j−1) + 1, out(j − latency))
+// datapath has a queue of `slots` pixels, the framebuffer one of `depth` pixels:
+//   next(j) = max(asked, in(j−1) + 1)
+//   in(j)   = next(j) if that is in(j−1) + 1 and not before out(j − slots − 1) + 2,
+//             else max(next(j), out(j − slots) + 2)
 //   out(j)  = max(in(j) + latency, out(j−1) + 1, read(j − depth) + 1)
 //   read(j) = max(out(j) + 1, read(j−1) + cost(j−1))
+// A slot is free 2 cycles after its pixel left. A pixel that entered in the cycle before is not
+// counted yet; what is one too many waits at the output of the queue.
 #pragma once
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
+#include "model/fixed/constants.h"
 #include "sim/timestamped_fifo.h"
 
 namespace phongpipe {
@@ -20,7 +25,7 @@ class PixelTiming {
  public:
   PixelTiming(int latency, int depth)
       : latency_(latency),
-        out_(static_cast<std::size_t>(latency), -1),
+        out_(static_cast<std::size_t>(kPixelQueueSlots) + 1, -kSlotFree),
         read_(static_cast<std::size_t>(depth), -1) {}
 
   // Times the next `count` pixels, of which the first may enter from cycle `asked`. `cycles` is
@@ -39,11 +44,14 @@ class PixelTiming {
     const std::size_t depth = read_.size(), held = out_.size();
     const Cycle latency = latency_;
     for (std::size_t i = 0; i < count; ++i) {
-      in = std::max({asked, in + 1, out[out_slot]});
+      const Cycle next = std::max(asked, in + 1);
+      const std::size_t after = out_slot + 1 == held ? 0 : out_slot + 1;
+      const bool follows = next == in + 1 && out[out_slot] + kSlotFree <= next;
+      in = follows ? next : std::max(next, out[after] + kSlotFree);
       if (i == 0) taken = in;
       last_out = std::max({in + latency, last_out + 1, reads[slot] + 1});
       out[out_slot] = last_out;
-      if (++out_slot == held) out_slot = 0;
+      out_slot = after;
       reads[slot] = std::max(last_out + 1, free_from);
       free_from = reads[slot] + cycles[i];
       if (++slot == depth) slot = 0;
@@ -72,11 +80,14 @@ class PixelTiming {
   Cycle end() const { return free_from_; }  // the framebuffer is done with all pixels so far
 
  private:
+  static constexpr Cycle kSlotFree = 2;  // cycles after its pixel left
+
   // Whether the last pixel went through without waiting and occupied the framebuffer for 1 cycle.
   // Nothing before it can then delay a later pixel that enters in order: out and read grow by at
-  // least 1 a pixel, so out(j − latency) ≤ out(j−1) − latency + 1 = in(j−1) + 1 and, where depth ≥
-  // 2, read(j − depth) + 1 ≤ read(j−1) = out(j−1) + 1. The same holds for all j after it, so that
-  // the earlier values kept in `out_` and `read_` need not be replaced.
+  // least 1 a pixel, so out(j − slots) + 2 ≤ out(j−1) − slots + 3 = in(j−1) + latency − slots + 3 ≤
+  // in(j−1) + 1 and, where depth ≥ 2, read(j − depth) + 1 ≤ read(j−1) = out(j−1) + 1. The same
+  // holds for all j after it, so that the earlier values kept in `out_` and `read_` need not be
+  // replaced.
   bool unhindered() const {
     return read_.size() >= 2 && last_out_ == in_ + latency_ && free_from_ == last_out_ + 2;
   }
@@ -92,7 +103,7 @@ class PixelTiming {
 
   Cycle in_ = -1, last_out_ = -1, free_from_ = 0;
   Cycle latency_;
-  std::vector<Cycle> out_;    // of the last `latency` pixels
+  std::vector<Cycle> out_;    // of the last slots + 1 pixels
   std::size_t out_slot_ = 0;  // of the earliest of these
   std::vector<Cycle> read_;
   std::size_t read_slot_ = 0;

@@ -24,10 +24,23 @@ constexpr int kSpecularGuardBits = 12;
 constexpr int kCoordinateBits = 12;               // x and y, 0 … 4095
 constexpr int kLengthBits = kCoordinateBits + 1;  // pixels in a span, 1 … 4096
 
-// Clocks from the acceptance of a span to its first pixel at the output of pixel_datapath; also the
-// number of pixels the datapath holds. Depth cueing adds a stage.
-constexpr int kDatapathLatency = 4;
-constexpr int kDepthCueLatency = 1;
+// Clocks from the acceptance of a span to its first pixel at the output of pixel_datapath, and what
+// depth cueing adds.
+constexpr int kDatapathLatency = 13;
+constexpr int kDepthCueLatency = 6;
+
+// Pixels that fit in the queue at the end of pixel_datapath. The pipeline before it never stalls,
+// so that there must be more than a pixel needs from its acceptance until its slot is free again.
+constexpr int kPixelQueueBits = 5;
+constexpr int kPixelQueueSlots = 1 << kPixelQueueBits;
+static_assert(kPixelQueueSlots > kDatapathLatency + kDepthCueLatency + 1);
+
+// A sum of a series is made in two clocks: its low bits, then its upper kHighBits with their carry.
+// Counted from above, so that a series in a wider register is split at the same place.
+constexpr int kHighBits = 13;
+constexpr int low_bits(int width) {
+  return width > kHighBits ? width - kHighBits : 1;
+}
 
 // The share of a pixel's own colour under depth cueing: a linear series
 // s(kCueIntegerBits).(kCueFraction), clamped to 0 … 1 and truncated to kCueFactorBits before the

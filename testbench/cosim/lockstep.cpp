@@ -25,8 +25,7 @@ Lockstep::Lockstep(const DatapathConfiguration& configuration, const OutputColor
   for (DatapathSignal& signal : datapath_signals(configuration)) {
     const auto found = RtlRegister::find(signals_, signal);
     if (!found) continue;  // only the ports of somebody else's RTL are known
-    const bool always = signal.name.find("_valid") != std::string::npos;
-    registers_.push_back({std::move(signal), *found, always});
+    registers_.push_back({std::move(signal), *found});
   }
   rtl_.before_edge([this] {
     compare_table();
@@ -45,18 +44,13 @@ void Lockstep::differs(std::uint64_t pixel, SignalDivergence difference) {
   }
 }
 
-std::uint64_t Lockstep::pixel_in(DatapathStage stage) const {
-  constexpr int kStages = static_cast<int>(DatapathStage::fade) + 1;
-  std::uint64_t pixel = delivered_;
-  for (int later = static_cast<int>(stage) + 1; later < kStages; ++later) {
-    pixel += model_.valid(static_cast<DatapathStage>(later)) ? 1 : 0;
-  }
-  return pixel;
+std::uint64_t Lockstep::pixel_in(int stage) const {
+  return delivered_ + model_.pixels_after(stage);
 }
 
 void Lockstep::compare_registers() {
   for (const Register& r : registers_) {
-    if (!r.always && !model_.valid(r.signal.stage)) continue;
+    if (!r.signal.always && !model_.in_stage(r.signal.stage).valid) continue;
     const std::int64_t model = r.signal.value(model_), other = r.rtl.value();
     if (model == other) continue;
     differs(pixel_in(r.signal.stage),
@@ -65,8 +59,7 @@ void Lockstep::compare_registers() {
 }
 
 void Lockstep::compare_table() {
-  if (!table_written_) return;
-  table_written_ = false;
+  if (table_settles_ == 0 || --table_settles_ > 0) return;
   const int bits = configuration_.rom_data_bits;
   std::size_t place = 0;  // of the word in the table
   for (const RtlSignalView* const words : rom_memories(signals_)) {
@@ -122,9 +115,8 @@ DatapathOutputs Lockstep::clock(const DatapathInputs& inputs) {
   const DatapathOutputs model = model_.clock(inputs);
   compare_outputs(rtl, model);
   if (model.pixel_valid && inputs.pixel_ready) ++delivered_;
-  table_written_ = table_written_ || inputs.table != nullptr;
-  if (inputs.table != nullptr && inputs.rom_address + 1 < configuration_.rom_words()) {
-    table_written_ = false;  // not complete yet
+  if (inputs.table != nullptr && inputs.rom_address + 1 == configuration_.rom_words()) {
+    table_settles_ = 2;
   }
   if (inputs.span != nullptr && rtl.span_ready) begin_span(inputs.span->row.length);
   const bool complete = !stream_index_ || delivered_ > *stream_index_;

@@ -54,10 +54,9 @@ class Lockstep : public ClockedDatapath {
   struct Register {
     DatapathSignal signal;
     RtlRegister rtl;
-    bool always;  // compared even if its stage holds no pixel
   };
   // The pixel of the stream that a stage holds, or will hold next, in the model.
-  std::uint64_t pixel_in(DatapathStage stage) const;
+  std::uint64_t pixel_in(int stage) const;
   void compare_registers();
   void compare_table();
   void compare_outputs(const DatapathOutputs& rtl, const DatapathOutputs& model);
@@ -72,7 +71,8 @@ class Lockstep : public ClockedDatapath {
   std::optional<std::uint64_t> stream_index_;
   std::uint64_t span_begin_ = 0, span_end_ = 0;  // pixels of the stream, of the span taken last
   std::uint64_t delivered_ = 0;                  // by the model
-  bool table_written_ = false;                   // and not compared yet
+  // Clocks until the RTL's table is complete, after its last word was written; 0: it was compared.
+  int table_settles_ = 0;
   std::int64_t cycle_ = 0;
   // What differed first of each pixel, from the span before the last on.
   std::uint64_t kept_from_ = 0;

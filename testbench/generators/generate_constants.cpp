@@ -27,6 +27,8 @@ int main() {
   define("SPECULAR_GUARD_BITS", kSpecularGuardBits);
   define("DATAPATH_LATENCY", kDatapathLatency);
   define("DEPTH_CUE_LATENCY", kDepthCueLatency);
+  define("PIXEL_QUEUE_BITS", kPixelQueueBits);
+  define("HIGH_BITS", kHighBits);
   // Where a parameter is out of range, elaboration stops in every tool at a module that does not
   // exist and whose name says which parameter it is.
   std::string checks;

@@ -64,19 +64,19 @@ BlockValues block_values(const PixelStory& story, const SpanStory& span) {
   const Channels channels(f);
   BlockValues values;
   if (f.specular) {
-    values.address = span.compare.address;
-    values.table_x = ExponentRom::entry_x(f, span.compare.address, story.material.shininess);
-    std::array<std::int32_t, 3> words = span.read.word;
-    for (std::size_t c = 0; c < words.size(); ++c) words[c] += span.read.increment[c];
+    values.address = span.pixel.address;
+    values.table_x = ExponentRom::entry_x(f, span.pixel.address, story.material.shininess);
+    std::array<std::int32_t, 3> words = span.pixel.word;
+    for (std::size_t c = 0; c < words.size(); ++c) words[c] += span.pixel.increment[c];
     values.word = channels.of(words, f.rom_data_bits - kOutputBits);
-    values.open = span.read.open;
+    values.open = span.pixel.open;
   }
-  values.lit = channels.of(span.compare.lit);
-  values.clamped = channels.of(span.read.clamped, f.sum_fraction_bits());
-  values.sum = channels.of(span.add.sum, 0);
-  if (f.depth_cue) values.own_share = std::ldexp(span.add.cue_factor, -kCueFactorBits);
+  values.lit = channels.of(span.pixel.lit);
+  values.clamped = channels.of(span.pixel.clamped, f.sum_fraction_bits());
+  values.sum = channels.of(span.pixel.sum, 0);
+  if (f.depth_cue) values.own_share = std::ldexp(span.pixel.cue_factor, -kCueFactorBits);
   values.saturated = channels.of(span.saturated);
-  values.output = channels.of(span.color);
+  values.output = channels.of(span.pixel.color);
   return values;
 }
 

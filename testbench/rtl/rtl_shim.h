@@ -62,6 +62,7 @@ class Rtl {
     top_.span_valid = 0;
     top_.rom_write = 0;
     top_.pixel_ready = 0;
+    top_.eval();  // an edge is one only from a low clock that was seen
     edge();
     top_.reset = 0;
   }

@@ -62,11 +62,10 @@ const RtlSignalView* RtlSignals::find(std::string_view scope, std::string_view n
 
 std::vector<const RtlSignalView*> rom_memories(const RtlSignals& signals) {
   std::vector<const RtlSignalView*> memories;
-  for (const auto& [scope, name] :
-       {std::pair{"pixel_datapath.specular.rom", "table_words"},
-        {"pixel_datapath.specular.rom.octave.second_table", "table_increments"}}) {
-    const RtlSignalView* const memory = signals.find(scope, name);
-    if (memory != nullptr) memories.push_back(memory);
+  for (const char* name : {"table_words", "table_increments"}) {
+    for (const RtlSignalView& signal : signals.all()) {  // banks in order
+      if (signal.name == name) memories.push_back(&signal);
+    }
   }
   return memories;
 }
@@ -74,8 +73,11 @@ std::vector<const RtlSignalView*> rom_memories(const RtlSignals& signals) {
 std::optional<RtlRegister> RtlRegister::find(const RtlSignals& signals,
                                              const DatapathSignal& signal) {
   RtlRegister found;
-  found.view_ = signal.packed.empty() ? signals.find(signal.block(), signal.name)
-                                      : signals.find("pixel_datapath", signal.packed);
+  const std::string& name = signal.packed.empty() ? signal.name : signal.packed;
+  found.view_ = signals.find(signal.block(), name);
+  if (found.view_ == nullptr && !signal.packed.empty()) {
+    found.view_ = signals.find("pixel_datapath", name);
+  }
   found.lsb_ = signal.rtl_lsb;
   found.width_ = signal.width;
   found.is_signed_ = signal.is_signed;

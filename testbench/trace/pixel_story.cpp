@@ -37,27 +37,21 @@ SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
   const std::vector<DatapathSignal> signals = datapath_signals(configuration);
   inputs.pixel_ready = true;
   inputs.span = &span;
-  const auto last = static_cast<int>(signals.back().stage);
-  for (int clock = 0; clock <= story.step + last; ++clock) {
+  for (int clock = 0; clock < story.step + datapath_stages(configuration); ++clock) {
     registers.clock(inputs);
     inputs.span = nullptr;
+    if (clock == story.step) story.pixel = registers.in_stage(0);
     for (const DatapathSignal& signal : signals) {
-      const int pixel = clock - static_cast<int>(signal.stage);
-      if (clock == 0 && pixel == 0) story.start.push_back({signal, signal.value(registers)});
+      if (signal.always) continue;
+      const int pixel = clock - signal.stage;
+      if (clock == 1 && pixel == 0) story.start.push_back({signal, signal.value(registers)});
       if (pixel == story.step) story.registers.push_back({signal, signal.value(registers)});
     }
-    const auto holds = [&](DatapathStage stage) {
-      return clock - static_cast<int>(stage) == story.step;
-    };
-    if (holds(DatapathStage::compare)) story.compare = registers.compare();
-    if (holds(DatapathStage::read)) story.read = registers.read();
-    if (holds(DatapathStage::add)) story.add = registers.add();
   }
-  story.color = registers.outputs(inputs).pixel.color;
   for (std::size_t c = 0; c < static_cast<std::size_t>(configuration.channels); ++c) {
-    const std::int32_t cue = span.first_pass ? frame.cue_color[c] : 0, sum = story.add.sum[c];
+    const std::int32_t cue = span.first_pass ? frame.cue_color[c] : 0, sum = story.pixel.sum[c];
     story.saturated[c] =
-        (configuration.depth_cue ? faded(sum, cue, story.add.cue_factor) : sum) > kOutputMax;
+        (configuration.depth_cue ? faded(sum, cue, story.pixel.cue_factor) : sum) > kOutputMax;
   }
   return story;
 }
@@ -235,7 +229,7 @@ class StoryTeller {
     visit.light = pass;
     visit.triangle = whole(triangle);
     visit.depth = Framebuffer::depth(setup_, span, light.span->step);
-    visit.color = light.span->color;
+    visit.color = light.span->pixel.color;
     if (framebuffer.covered(index())) visit.held_by = whole(framebuffer.owner(index()));
     visit.taken = framebuffer.take(span.first_pass, x_, y_, visit.depth, triangle, visit.color);
     story_.visits.push_back(visit);

@@ -55,14 +55,10 @@ struct SpanStory {
   RowSpan row;
   int step = 0;  // of the pixel, from 0
   std::array<std::int64_t, 3> level = {};
-  std::vector<RegisterValue> start;      // the stage `step` at the first pixel of the span
+  std::vector<RegisterValue> start;      // stage 1 at the first pixel of the span
   std::vector<RegisterValue> registers;  // all stages, each while it holds the pixel
-  // The same stages by name.
-  DatapathRegisters::Compare compare;
-  DatapathRegisters::Read read;
-  DatapathRegisters::Add add;
-  std::uint32_t color = 0;             // at the output
-  std::array<bool, 3> saturated = {};  // whether more than the output's range was left
+  DatapathPixel pixel;                   // the same, by name
+  std::array<bool, 3> saturated = {};    // whether more than the output's range was left
 };
 
 // What one light does to the triangle that won, at the pixel.

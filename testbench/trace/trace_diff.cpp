@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 #include <map>
 
 #include "model/scene/input_error.h"
@@ -15,13 +16,12 @@ namespace phongpipe {
 namespace {
 
 constexpr std::string_view kDatapath = "pixel_datapath";
-constexpr int kStages = static_cast<int>(DatapathStage::fade) + 1;
 
 // Names of registers by their full name, with the stage that they belong to: those of the table of
 // signals, for the datapath with everything, and those that they are packed in.
-const std::map<std::string, DatapathStage>& stages_of_signals() {
-  static const std::map<std::string, DatapathStage> all = [] {
-    std::map<std::string, DatapathStage> stages;
+const std::map<std::string, int>& stages_of_signals() {
+  static const std::map<std::string, int> all = [] {
+    std::map<std::string, int> stages;
     DatapathConfiguration everything;
     everything.channels = 3;
     everything.diffuse = everything.specular = everything.depth_cue = true;
@@ -29,7 +29,9 @@ const std::map<std::string, DatapathStage>& stages_of_signals() {
     everything.rom_layout = RomLayout::bipartite;
     for (const DatapathSignal& signal : datapath_signals(everything)) {
       stages.emplace(signal.full_name(), signal.stage);
-      if (!signal.packed.empty()) {
+      // Words that are packed with those of other stages are no signals of a pixel.
+      const bool of_one_stage = signal.packed == signal.name || signal.packed == signal.name + "s";
+      if (of_one_stage) {
         stages.emplace(fmt::format("{}.{}", kDatapath, signal.packed), signal.stage);
       }
     }
@@ -41,9 +43,9 @@ const std::map<std::string, DatapathStage>& stages_of_signals() {
 // What a trace shows of one pixel.
 struct TracedPixel {
   int x = 0, y = 0;
-  std::array<std::uint64_t, kStages> ps{};     // when each stage took it
-  std::map<std::string, std::string> signals;  // bits, by full name
-  std::optional<int> entered, left;            // clocks
+  std::array<std::uint64_t, kMostStages> ps{};  // when each stage took it; 0: it was not seen there
+  std::map<std::string, std::string> signals;   // bits, by full name
+  std::optional<int> entered, left;             // clocks
 };
 
 // Follows pixels through one pixel_datapath of a file, clock by clock.
@@ -54,9 +56,10 @@ class Follower {
   const std::string& scope() const { return scope_; }
   void add(const std::string& name, std::size_t variable, int width) {
     variables_[name] = variable;
+    if (name == fmt::format("{}.valid", kDatapath)) valid_width_ = width;
     const auto known = stages_of_signals().find(name);
     if (known == stages_of_signals().end()) return;
-    registers_[static_cast<std::size_t>(known->second)].push_back({name, variable, width});
+    registers_[index(known->second)].push_back({name, variable, width});
   }
   const std::map<std::string, std::size_t>& variables() const { return variables_; }
   const std::vector<TracedPixel>& pixels() const { return pixels_; }
@@ -65,68 +68,99 @@ class Follower {
     return found != variables_.end() && found->second == variable;
   }
 
-  // Values as they are before a rising edge of the clock.
+  // Values as they are before a rising edge of the clock. A pixel moves on a stage in each, then
+  // waits in the queue.
   void edge(std::uint64_t ps, const std::vector<std::string>& values) {
-    std::array<bool, kStages> valid{};
-    for (int stage = 0; stage < kStages; ++stage) {
-      valid[index(stage)] = bit(values, prefix(stage) + "_valid");
+    const bool leaves = bit(values, fmt::format("{}.pixel_valid", kDatapath)) &&
+                        bit(values, fmt::format("{}.pixel_ready", kDatapath));
+    if (began_) {
+      began_ = false;
+      unknown_ = pixels_inside(values);
     }
-    const bool has_fade = variables_.count(prefix(kStages - 1) + "_valid") != 0;
-    const bool taken = bit(values, fmt::format("{}.pixel_ready", kDatapath));
-    for (int stage = kStages - 1; stage >= 0; --stage) {  // in the order of the pixels
-      if (!valid[index(stage)]) {
-        held_[index(stage)].reset();
+    std::array<bool, kMostStages> valid{};
+    for (int stage = 0; stage < kMostStages; ++stage) {
+      valid[index(stage)] = is_valid(values, stage);
+    }
+    if (valid[0]) {
+      held_[0] = pixels_.size();
+      pixels_.emplace_back();
+      pixels_.back().entered = clock_;
+    }
+    for (int stage = 0; stage < kMostStages; ++stage) {
+      if (!valid[index(stage)]) held_[index(stage)].reset();
+      if (held_[index(stage)]) look(stage, ps, values);
+    }
+    if (leaves && unknown_ > 0) {
+      --unknown_;
+    } else if (leaves && !queue_.empty()) {
+      pixels_[queue_.front()].left = clock_;
+      queue_.pop_front();
+    }
+    for (int stage = kMostStages - 1; stage >= 0; --stage) {
+      std::optional<std::size_t>& held = held_[index(stage)];
+      if (!held) continue;
+      const bool last = stage + 1 == kMostStages || !has_stage(stage + 1);
+      if (last) {
+        queue_.push_back(*held);
       } else {
-        look(stage, ps, values);
+        held_[index(stage + 1)] = held;
       }
-    }
-    const int last = has_fade ? kStages - 1 : kStages - 2;
-    if (valid[index(last)] && taken && held_[index(last)]) {
-      pixels_[*held_[index(last)]].left = clock_;
-    }
-    // Each stage moves on if the next one is free.
-    bool ready = taken;
-    for (int stage = last; stage > 0; --stage) {
-      ready = ready || !valid[index(stage)];
-      if (!ready) continue;
-      held_[index(stage)] = held_[index(stage - 1)];
-      held_[index(stage - 1)].reset();
+      held.reset();
     }
     ++clock_;
   }
   // What was recorded ends here for a while.
-  void gap() { held_ = {}; }
+  void gap() {
+    // A pixel is placed in stage 1.
+    if (!pixels_.empty() && pixels_.back().ps[1] == 0) pixels_.pop_back();
+    held_ = {};
+    queue_.clear();
+    began_ = true;
+  }
 
  private:
   static std::size_t index(int stage) { return static_cast<std::size_t>(stage); }
-  static std::string prefix(int stage) {
-    constexpr const char* kPrefixes[] = {"fd", "s1", "s2", "s3", "cueing.s4"};
-    return fmt::format("{}.{}", kDatapath, kPrefixes[stage]);
+  // Our own traces have a bit for each stage, those of other tools RTL's word.
+  bool has_stage(int stage) const {
+    if (variables_.count(fmt::format("{}.s{}_valid", kDatapath, stage)) != 0) return true;
+    return stage < valid_width_;
+  }
+  bool is_valid(const std::vector<std::string>& values, int stage) const {
+    const std::string own = fmt::format("{}.s{}_valid", kDatapath, stage);
+    if (variables_.count(own) != 0 || stage >= valid_width_) return bit(values, own);
+    const int all = number(values, fmt::format("{}.valid", kDatapath), valid_width_);
+    return (all >> stage & 1) != 0;
   }
   bool bit(const std::vector<std::string>& values, const std::string& name) const {
     const auto found = variables_.find(name);
     return found != variables_.end() && values[found->second] == "1";
   }
-  int number(const std::vector<std::string>& values, const std::string& name) const {
+  int number(const std::vector<std::string>& values, const std::string& name, int width) const {
     const auto found = variables_.find(name);
     if (found == variables_.end()) return 0;
     int number = 0;
-    for (const char c : values[found->second]) number = 2 * number + (c == '1' ? 1 : 0);
+    for (const char c : padded(values[found->second], width))
+      number = 2 * number + (c == '1' ? 1 : 0);
     return number;
+  }
+  // Pixels that entered before the record began and have not left.
+  int pixels_inside(const std::vector<std::string>& values) const {
+    constexpr int kBits = kPixelQueueBits + 1;
+    const int minus_colors = number(values, fmt::format("{}.queue.minus_colors", kDatapath), kBits);
+    int pixels = ((1 << kBits) - minus_colors) % (1 << kBits);
+    pixels += bit(values, fmt::format("{}.pixel_valid", kDatapath)) ? 1 : 0;
+    for (int stage = 1; stage < kMostStages; ++stage) {
+      pixels += is_valid(values, stage) ? 1 : 0;
+    }
+    return pixels;
   }
   // The pixel that a stage holds, and its signals there.
   void look(int stage, std::uint64_t ps, const std::vector<std::string>& values) {
-    std::optional<std::size_t>& held = held_[index(stage)];
-    if (!held) {  // it enters the first stage, or was inside when the trace began
-      held = pixels_.size();
-      TracedPixel pixel;
-      pixel.x = number(values, prefix(stage) + "_x");
-      pixel.y = number(values, prefix(stage) + "_y");
-      if (stage == 0) pixel.entered = clock_;
-      pixels_.push_back(std::move(pixel));
+    TracedPixel& pixel = pixels_[*held_[index(stage)]];
+    if (stage == 1) {
+      pixel.x = number(values, fmt::format("{}.s1_x", kDatapath), kCoordinateBits);
+      pixel.y = number(values, fmt::format("{}.s1_y", kDatapath), kCoordinateBits);
     }
-    TracedPixel& pixel = pixels_[*held];
-    if (pixel.ps[index(stage)] != 0) return;
     pixel.ps[index(stage)] = ps;
     for (const auto& [name, variable, width] : registers_[index(stage)]) {
       pixel.signals[name] = padded(values[variable], width);
@@ -147,8 +181,12 @@ class Follower {
     std::size_t variable;
     int width;
   };
-  std::array<std::vector<Register>, kStages> registers_;  // by the stage that they belong to
-  std::array<std::optional<std::size_t>, kStages> held_{};
+  std::array<std::vector<Register>, kMostStages> registers_;  // by the stage that they belong to
+  std::array<std::optional<std::size_t>, kMostStages> held_{};
+  std::deque<std::size_t> queue_;
+  int valid_width_ = 0;  // of RTL's word
+  bool began_ = true;    // the next clock is the first of a record
+  int unknown_ = 0;      // pixels inside that entered before
   std::vector<TracedPixel> pixels_;
   int clock_ = 0;
 };
@@ -217,6 +255,7 @@ TraceContent read_trace(const std::filesystem::path& file) {
   };
   content.complete = WaveReader::read(file, declare, visit).complete;
   apply();
+  for (Follower& follower : content.followers) follower.gap();
   return content;
 }
 
@@ -253,7 +292,7 @@ TraceComparison compare(const Follower& a, const Follower& b) {
   result.b_pixels = b.pixels().size();
   result.a_latency_cycles = least_latency(a.pixels());
   result.b_latency_cycles = least_latency(b.pixels());
-  std::vector<std::pair<DatapathStage, std::string>> common;
+  std::vector<std::pair<int, std::string>> common;
   for (const auto& [name, stage] : stages_of_signals()) {
     if (a.variables().count(name) != 0 && b.variables().count(name) != 0) {
       common.emplace_back(stage, name);

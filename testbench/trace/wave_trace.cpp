@@ -304,7 +304,7 @@ class TracedDatapath : public ClockedDatapath {
     while (window_ < windows_.size() && windows_[window_].last < clock_.cycle) ++window_;
     recording_ = window_ < windows_.size() && windows_[window_].first <= clock_.cycle;
     clock_.inputs = inputs;
-    clock_.outputs = systemc_.outputs(inputs);
+    clock_.outputs = systemc_.outputs();
     const DatapathOutputs rtl = rtl_.clock(inputs);
     if (recording_) mark();
     const DatapathOutputs systemc = systemc_.clock(inputs);
@@ -321,10 +321,10 @@ class TracedDatapath : public ClockedDatapath {
     return std::find(target_.pixels.begin(), target_.pixels.end(), place) != target_.pixels.end();
   }
   void mark() {
-    const DatapathRegisters::Step& step = systemc_.step();
-    const bool inside = step.valid && is_target(step.x, step.y);
+    const DatapathPixel& entered = systemc_.in_stage(0);
+    const bool inside = entered.valid && is_target(entered.x, entered.y);
     if (inside && !entering_) {
-      markers_.push_back({fmt::format("enters {},{}", step.x, step.y), clock_.cycle});
+      markers_.push_back({fmt::format("enters {},{}", entered.x, entered.y), clock_.cycle});
     }
     entering_ = inside;
     const auto& [ready, valid, pixel] = clock_.outputs;

@@ -392,9 +392,9 @@ TEST_F(Campaigns, FailuresOfTheUsersRtlAreOneBucket) {
     if (entry.is_regular_file()) fs::copy(entry.path(), folder_ / "rtl");
   }
   std::string rom = read_whole_file(file("rtl/exponent_rom.sv"));
-  const std::string read = "word <= table_words[place];";
+  const std::string read = "s7_word <= table_words[s6_place];";
   ASSERT_NE(rom.find(read), std::string::npos);
-  rom.replace(rom.find(read), read.size(), "word <= table_words[place ^ 64];");
+  rom.replace(rom.find(read), read.size(), "s7_word <= table_words[s6_place ^ 64];");
   write("rtl/exponent_rom.sv", rom);
   setenv("XDG_CACHE_HOME", file("cache").c_str(), 1);
   const std::vector<std::string> regress = {"regress",       "sphere",    "torus",
@@ -402,7 +402,7 @@ TEST_F(Campaigns, FailuresOfTheUsersRtlAreOneBucket) {
                                             file("a.db"),    "--junit",   file("junit.xml")};
   const ProcessOutput output = run(regress);
   EXPECT_EQ(output.status, 1) << output.text;
-  EXPECT_NE(output.text.find("2 × RTL: color: pixel_datapath.channel[].s2_word: RTL differs"),
+  EXPECT_NE(output.text.find("2 × RTL: color: pixel_datapath.channel[].s8_word: RTL differs"),
             std::string::npos)
       << output.text;
   EXPECT_NE(output.text.find("again  phongpipe verify sphere --rtl " + file("rtl")),

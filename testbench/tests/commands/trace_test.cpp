@@ -18,9 +18,8 @@ class TraceProgram : public Program {
       if (entry.is_regular_file()) fs::copy(entry.path(), folder_ / "rtl");
     }
     std::string text = read_whole_file(file("rtl/pixel_datapath.sv"));
-    const std::string correct = ".highlight_open(s2_open)";
-    text.replace(text.find(correct), correct.size(),
-                 ".highlight_open(s2_open ^ (s2_x == 100 && s2_y == 120))");
+    const std::string correct = "highlight[5:2], s1_highlight";
+    text.replace(text.find(correct), correct.size(), correct + " ^ (s1_x == 100 && s1_y == 120)");
     write("rtl/pixel_datapath.sv", text);
     setenv("XDG_CACHE_HOME", file("cache").c_str(), 1);
     return file("rtl");
@@ -58,14 +57,13 @@ TEST_F(TraceProgram, AFaultIsNamedTracedAndReplayed) {
   const ProcessOutput output =
       run({"verify", "sphere", "--rtl", rtl, "--out", file("out"), "--json", file("r.json")});
   EXPECT_EQ(output.status, 1) << output.text;
-  EXPECT_NE(output.text.find("cause    pixel_datapath.channel[0].summation.sum: model 0x"),
-            std::string::npos)
+  EXPECT_NE(output.text.find("cause    pixel_datapath.s2_highlight: model 0x"), std::string::npos)
       << output.text;
   const auto json = nlohmann::json::parse(read_whole_file(file("r.json")))["first_divergence"];
   EXPECT_EQ(json["x"], 100);
   EXPECT_EQ(json["y"], 120);
-  EXPECT_EQ(json["block"], "pixel_datapath.channel[0].summation");
-  EXPECT_EQ(json["signal"], "sum");
+  EXPECT_EQ(json["block"], "pixel_datapath");
+  EXPECT_EQ(json["signal"], "s2_highlight");
   EXPECT_NE(json["model"], json["other"]);
   const std::string capsule = json["capsule"];
   EXPECT_EQ(capsule, file("out/sphere.toml"));
@@ -90,8 +88,7 @@ TEST_F(TraceProgram, AFaultIsNamedTracedAndReplayed) {
   expect_refused({"replay", capsule}, "found in other RTL");
   const ProcessOutput mended = run({"replay", capsule, "--anyway"});
   EXPECT_EQ(mended.status, 0) << mended.text;
-  EXPECT_NE(mended.text.find("recorded was pixel_datapath.channel[0].summation.sum"),
-            std::string::npos)
+  EXPECT_NE(mended.text.find("recorded was pixel_datapath.s2_highlight"), std::string::npos)
       << mended.text;
 }
 

@@ -16,6 +16,8 @@
 namespace phongpipe {
 namespace {
 
+constexpr int kWordStage = 8;  // in which words of the table are first seen
+
 struct Fault {
   std::string scope, name;  // of the RTL's signal
   int element = 0, bit = 0;
@@ -87,9 +89,11 @@ class PlantedFaults : public testing::Test {
   }
 
   void plant_everywhere() {
+    const RtlDatapath rtl(library_, frame_.setup.cue_color);
+    const RtlSignals inside(rtl);
     int planted = 0, shown = 0, named = 0;
     std::string missed;
-    const auto plant = [&](const Fault& fault, const std::string& signal, DatapathStage stage) {
+    const auto plant = [&](const Fault& fault, const std::string& signal, int stage) {
       ++planted;
       const auto pixel = first_pixel(fault);
       if (!pixel) return;
@@ -105,23 +109,18 @@ class PlantedFaults : public testing::Test {
       std::set<int> bits = {0, signal.width / 2, signal.width - 1};
       for (const int bit : bits) {
         for (const bool value : {false, true}) {
-          const bool packed = !signal.packed.empty();
-          const Fault fault = {packed ? "pixel_datapath" : signal.block(),
-                               packed ? signal.packed : signal.name, 0, signal.rtl_lsb + bit,
-                               value};
+          const RtlSignalView& view = RtlRegister::find(inside, signal)->view();
+          const Fault fault = {view.scope, view.name, 0, signal.rtl_lsb + bit, value};
           plant(fault, signal.full_name(), signal.stage);
         }
       }
     }
-    const RtlDatapath rtl(library_, frame_.setup.cue_color);
-    const RtlSignals inside(rtl);
     for (const RtlSignalView* const memory : rom_memories(inside)) {
       const int last = memory->elements - 1;
       for (const int address : {0, 7 * last / 10, last - last / 43}) {
         for (const int bit : {0, 7}) {
           for (const bool value : {false, true}) {
-            plant({memory->scope, memory->name, address, bit, value}, memory->name,
-                  DatapathStage::read);
+            plant({memory->scope, memory->name, address, bit, value}, memory->name, kWordStage);
           }
         }
       }
@@ -134,13 +133,13 @@ class PlantedFaults : public testing::Test {
     EXPECT_GE(named, 0.99 * shown) << missed;
   }
 
-  DatapathStage stage_of(const SignalDivergence& found) const {
-    if (found.signal.rfind("table_", 0) == 0) return DatapathStage::read;
+  int stage_of(const SignalDivergence& found) const {
+    if (found.signal.rfind("table_", 0) == 0) return kWordStage;
     for (const DatapathSignal& signal : signals_) {
       if (signal.block() == found.block && signal.name == found.signal) return signal.stage;
     }
     ADD_FAILURE() << found.name() << " is no register";
-    return {};
+    return -1;
   }
 
   Hardware hardware_;

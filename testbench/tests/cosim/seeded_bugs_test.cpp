@@ -64,8 +64,8 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
     if (model.stream[i].color > model.stream[brightest].color) brightest = i;
   }
   const ShadedPixel pixel = model.stream[brightest];
-  seed("pixel_datapath.sv", ".highlight_open(s2_open)",
-       fmt::format(".highlight_open(s2_open ^ (s2_x == {} && s2_y == {}))", pixel.x, pixel.y));
+  seed("pixel_datapath.sv", "highlight[5:2], s1_highlight",
+       fmt::format("highlight[5:2], s1_highlight ^ (s1_x == {} && s1_y == {})", pixel.x, pixel.y));
 
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
@@ -91,8 +91,8 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
 }
 
 TEST_F(SeededBug, LostPixelsDoNotHangTheHarness) {
-  seed("pixel_datapath.sv", "wire fd_last = fd_remaining == 1;",
-       "wire fd_last = fd_remaining == 1 || fd_remaining == 7;");
+  seed("pixel_datapath.sv", "span_length == 2 : remaining == 3;",
+       "span_length == 2 : remaining == 3 || remaining == 7;");
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
   EXPECT_GT(v.rtl->stream_mismatches, 0U);
@@ -109,8 +109,8 @@ TEST_F(SeededBug, ADeadDatapathIsReportedWithItsQueues) {
 }
 
 TEST_F(SeededBug, PixelsForEverEndTheSimulation) {
-  seed("pixel_datapath.sv", "if (s3_ready) s3_valid <= s2_valid;",
-       "if (s3_ready) s3_valid <= 1'b1;");
+  seed("pixel_datapath.sv", "valid <= {valid[LAST-1:0], enter};",
+       "valid <= {valid[LAST-1:0], enter || 1'b1};");
   for (const Detail detail : {Detail::span, Detail::cycle}) {
     const VerificationResult v = run(detail);
     EXPECT_FALSE(v.passed());
@@ -122,8 +122,8 @@ TEST_F(SeededBug, PixelsForEverEndTheSimulation) {
 }
 
 TEST_F(SeededBug, ABubbleBetweenSpansIsFoundByTheCycles) {
-  seed("pixel_datapath.sv", "assign span_ready = !fd_valid || (s1_ready && fd_last);",
-       "assign span_ready = !fd_valid || (s1_ready && fd_last && 1'b0);");
+  seed("pixel_datapath.sv", "assign span_ready = room && open;",
+       "assign span_ready = room && open && !valid[0];");
   const VerificationResult v = run();
   EXPECT_EQ(v.rtl->stream_mismatches, 0U);
   EXPECT_FALSE(v.same_cycles());
@@ -133,20 +133,20 @@ TEST_F(SeededBug, ABubbleBetweenSpansIsFoundByTheCycles) {
 // The hashes of the first simulation differ; the second, which looks for the pixels, finds none.
 TEST_F(SeededBug, AFaultOfOnlyTheFirstSimulationStillFails) {
   const std::string marker = (folder_ / "simulated").string();
-  seed("pixel_datapath.sv", "logic s2_open;",
-       fmt::format("logic s2_open;\n"
-                   "bit first;\n"
+  seed("pixel_datapath.sv", "logic s8_open;",
+       fmt::format("logic s8_open;\n"
+                   "bit once;\n"
                    "integer file;\n"
                    "initial begin\n"
-                   "  first = 0;\n"
+                   "  once = 0;\n"
                    "  file = $fopen(\"{0}\", \"r\");\n"
                    "  if (file == 0) begin\n"
-                   "    first = 1;\n"
+                   "    once = 1;\n"
                    "    file = $fopen(\"{0}\", \"w\");\n"
                    "  end\n"
                    "end",
                    marker));
-  seed("pixel_datapath.sv", ".highlight_open(s2_open)", ".highlight_open(s2_open ^ first)");
+  seed("pixel_datapath.sv", ".s8_open,", ".s8_open(s8_open ^ once),");
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
   EXPECT_TRUE(v.systemc.agrees());

@@ -4,8 +4,6 @@
 
 module exponent_rom_sizes (
     input  logic         clk,
-    input  logic         address_enable,
-    input  logic         read_enable,
     input  logic [ 15:0] v,
     output logic [287:0] words,  // 12 bits each, increments added: by layout, the smallest table first
     input  logic         write,
@@ -28,11 +26,9 @@ module exponent_rom_sizes (
           .OCTAVES(OCTAVES)
       ) rom (
           .clk,
-          .address_enable,
-          .read_enable,
-          .v(v[bits+2:0]),
-          .word,
-          .increment,
+          .s4_v(v[bits+2:0]),
+          .s8_word(word),
+          .s8_increment(increment),
           .write(write && (layout == `PHONGPIPE_LAYOUT_PLAIN || 32'(write_address) < WORDS)),
           .write_address(write_address[bits-1:0]),
           .write_word

@@ -243,8 +243,7 @@ void compare_registers(const DatapathConfiguration& configuration, const RtlLibr
   std::vector<std::uint64_t> compared(signals.size());
   rtl.before_edge([&] {
     for (std::size_t i = 0; i < signals.size(); ++i) {
-      const bool is_valid_bit = signals[i].name.find("_valid") != std::string::npos;
-      if (!is_valid_bit && !systemc.valid(signals[i].stage)) continue;
+      if (!signals[i].always && !systemc.in_stage(signals[i].stage).valid) continue;
       ++compared[i];
       EXPECT_EQ(registers[i].value(), signals[i].value(systemc)) << signals[i].full_name();
     }

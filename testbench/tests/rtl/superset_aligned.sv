@@ -2,7 +2,7 @@
 // shifted left. For a proof that they stay equal, see superset_proof_test.cpp.
 module superset_aligned #(
     parameter int DIFFUSE_FRACTION  = 8,
-    parameter int SPECULAR_FRACTION = 5,
+    parameter int SPECULAR_FRACTION = 6,
     parameter int WIDER             = 4,
     localparam int DIFFUSE_WIDTH  = 10 + DIFFUSE_FRACTION,
     localparam int SPECULAR_WIDTH = 8 + SPECULAR_FRACTION
@@ -24,13 +24,7 @@ module superset_aligned #(
     input  logic [SPECULAR_WIDTH-1:0] specular_v,
     input  logic [SPECULAR_WIDTH-1:0] specular_d1,
     input  logic [SPECULAR_WIDTH-1:0] specular_d2,
-    input  logic                      pixel_ready,
-    output logic                      narrow_valid,
-    output logic                      wide_valid,
-    output logic [              23:0] narrow_place,
-    output logic [              23:0] wide_place,
-    output logic [               7:0] narrow_color,
-    output logic [               7:0] wide_color
+    input  logic                      pixel_ready
 );
   localparam logic [WIDER-1:0] ZEROS = '0;
 
@@ -45,8 +39,7 @@ module superset_aligned #(
       .span_level(level), .span_specular_v(specular_v), .span_specular_d1(specular_d1),
       .span_specular_d2(specular_d2), .span_gate_v('0), .span_gate_d1('0), .span_gate_d2('0),
       .span_cue_v('0), .span_cue_d1('0), .cue_color('0), .rom_write, .rom_address('0), .rom_data('0),
-      .pixel_ready, .pixel_valid(narrow_valid), .pixel_x(narrow_place[23:12]),
-      .pixel_y(narrow_place[11:0]), .pixel_color(narrow_color)
+      .pixel_ready, .pixel_valid(), .pixel_x(), .pixel_y(), .pixel_color()
   );
   pixel_datapath #(
       .DIFFUSE_FRACTION (DIFFUSE_FRACTION + WIDER),
@@ -60,7 +53,6 @@ module superset_aligned #(
       .span_specular_v({specular_v, ZEROS}), .span_specular_d1({specular_d1, ZEROS}),
       .span_specular_d2({specular_d2, ZEROS}), .span_gate_v('0), .span_gate_d1('0), .span_gate_d2('0),
       .span_cue_v('0), .span_cue_d1('0), .cue_color('0), .rom_write, .rom_address('0), .rom_data('0),
-      .pixel_ready, .pixel_valid(wide_valid), .pixel_x(wide_place[23:12]),
-      .pixel_y(wide_place[11:0]), .pixel_color(wide_color)
+      .pixel_ready, .pixel_valid(), .pixel_x(), .pixel_y(), .pixel_color()
   );
 endmodule

@@ -108,23 +108,23 @@ TEST_F(DatapathRegistersTest, AStallHoldsTheOutputUntilItIsTaken) {
   }
 }
 
-TEST_F(DatapathRegistersTest, StalledItHoldsAsManyPixelsAsItsLatency) {
+TEST_F(DatapathRegistersTest, StalledItFillsTheQueueAndTheOutput) {
   std::vector<Span> spans;
-  for (int i = 0; i < 10; ++i) spans.push_back(make_span(1));
+  for (int i = 0; i < 100; ++i) spans.push_back(make_span(1));
   std::size_t taken = 0;
-  for (int cycle = 0; cycle < 30; ++cycle) {
+  for (int cycle = 0; cycle < 100; ++cycle) {
     if (clock(&spans[taken], false).span_ready) ++taken;
   }
-  EXPECT_EQ(taken, static_cast<std::size_t>(kDatapathLatency));
+  EXPECT_EQ(taken, static_cast<std::size_t>(kPixelQueueSlots + 1));
 }
 
 // The stall's bubbles are closed before it reaches the input.
 TEST_F(DatapathRegistersTest, AStallClosesBubbles) {
   const Span first = make_span(1), second = make_span(1);
   ASSERT_TRUE(clock(&first, false).span_ready);
-  for (int i = 0; i < 10; ++i) clock(nullptr, false);  // the first waits at the output
+  for (int i = 0; i < 20; ++i) clock(nullptr, false);  // the first waits at the output
   ASSERT_TRUE(clock(&second, false).span_ready);
-  for (int i = 0; i < 10; ++i) clock(nullptr, false);
+  for (int i = 0; i < 20; ++i) clock(nullptr, false);
   EXPECT_EQ(clock(nullptr, true).pixel, pixels_of(first)[0]);
   const DatapathOutputs outputs = clock(nullptr, true);
   EXPECT_TRUE(outputs.pixel_valid) << "the second stands right behind it";
@@ -132,7 +132,7 @@ TEST_F(DatapathRegistersTest, AStallClosesBubbles) {
 }
 
 TEST_F(DatapathRegistersTest, ResetInMidRunDropsPixelsAndKeepsTheTable) {
-  for (int clocks = 0; clocks < 12; ++clocks) {
+  for (int clocks = 0; clocks < 24; ++clocks) {
     const Span dropped = make_span(8), span = make_span(3);
     clock(&dropped, true);
     for (int i = 0; i < clocks; ++i) clock(nullptr, i % 3 != 0);

@@ -35,7 +35,7 @@ module iverilog_tb;
     span_x = 100;  // is taken with the last pixel of the first
     repeat (6) @(negedge clk);
     span_valid = 0;
-    repeat (14) @(negedge clk);
+    repeat (24) @(negedge clk);
     $finish;
   end
 endmodule

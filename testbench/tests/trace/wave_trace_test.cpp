@@ -184,9 +184,9 @@ TEST_F(Traces, ViewsNameOnlyWhatIsThere) {
 TEST_F(Traces, WordsAreDeclaredByTheirWeightsAndShownInLsb) {
   record(pixel(30, 31), "a.vcd");
   const std::string text = read_whole_file(folder_ / "a.vcd");
-  const std::size_t at = text.find(" v [9:-16] $end");
+  const std::size_t at = text.find(" s4_v [9:-16] $end");
   EXPECT_NE(at, std::string::npos) << text.substr(0, 3000);
-  const std::string name = "pixel_datapath.channel[0].diffuse.diffuse_series.v";
+  const std::string name = "pixel_datapath.channel[0].diffuse.diffuse_series.s4_v";
   const auto words = values_of(folder_ / "a.vcd", "phongpipe.rtl." + name);
   const auto numbers = values_of(folder_ / "a.vcd", "phongpipe.lsb.rtl." + name);
   ASSERT_GT(numbers.size(), 20U);
@@ -226,9 +226,8 @@ TEST_F(Traces, AFaultIsFoundByComparingTraces) {
     if (entry.is_regular_file()) fs::copy(entry.path(), rtl);
   }
   std::string text = read_whole_file(rtl / "pixel_datapath.sv");
-  const std::string correct = ".highlight_open(s2_open)";
-  text.replace(text.find(correct), correct.size(),
-               ".highlight_open(s2_open ^ (s2_x == 33 && s2_y == 31))");
+  const std::string correct = "highlight[5:2], s1_highlight";
+  text.replace(text.find(correct), correct.size(), correct + " ^ (s1_x == 33 && s1_y == 31)");
   write_text(rtl / "pixel_datapath.sv", text);
   RtlBuildOptions options = build();
   options.sources = rtl;
@@ -242,7 +241,7 @@ TEST_F(Traces, AFaultIsFoundByComparingTraces) {
   for (const TraceComparison& c : diff.comparisons) {
     ASSERT_EQ(c.first.has_value(), c.a_scope == "phongpipe.rtl") << c.a_scope;
     if (!c.first) continue;
-    EXPECT_EQ(c.first->signal, "pixel_datapath.channel[0].summation.sum");
+    EXPECT_EQ(c.first->signal, "pixel_datapath.s2_highlight");
     EXPECT_EQ(c.first->x, 33);
     EXPECT_EQ(c.first->y, 31);
   }
@@ -261,7 +260,7 @@ TEST_F(Traces, OfOtherToolsAreComparedByTheirNames) {
     for (const fs::path& source : rtl_sources(PHONGPIPE_HARDWARE)) {
       if (source.extension() != ".sv") continue;
       std::string text = read_whole_file(source);
-      const std::string correct = "integer_part;\n    end";
+      const std::string correct = "integer_part;\n    new_word";
       const std::size_t at = text.find(correct);
       if (!fault.empty() && at != std::string::npos) text.replace(at, 12, fault);
       write_text(folder_ / source.filename(), text);
@@ -278,7 +277,7 @@ TEST_F(Traces, OfOtherToolsAreComparedByTheirNames) {
   const TraceDiff diff = diff_traces(folder_ / "a.vcd", folder_ / "b.vcd");
   ASSERT_EQ(diff.comparisons.size(), 1U);
   ASSERT_TRUE(diff.comparisons[0].first.has_value());
-  EXPECT_EQ(diff.comparisons[0].first->signal, "pixel_datapath.specular.rom.address");
+  EXPECT_EQ(diff.comparisons[0].first->signal, "pixel_datapath.specular.rom.s5_address");
   EXPECT_EQ(diff.comparisons[0].a_pixels, 12U);
   EXPECT_EQ(diff.comparisons[0].a_latency_cycles, kDatapathLatency);
   record(pixel(30, 31), "ours.fst");

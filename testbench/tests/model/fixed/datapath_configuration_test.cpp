@@ -114,7 +114,7 @@ TEST(DatapathConfiguration, BlocksLeftOutCostNothing) {
   c.depth_cue = true;
   EXPECT_EQ(c.adders(), 7) << "a linear series, a difference and a sum a channel";
   EXPECT_EQ(c.multipliers(), 3);
-  EXPECT_EQ(c.latency_cycles(), kDatapathLatency + 1);
+  EXPECT_EQ(c.latency_cycles(), kDatapathLatency + kDepthCueLatency);
   c.specular = true;
   EXPECT_EQ(c.series(), 2) << "N·H and the gate";
   EXPECT_EQ(c.adders(), 4 + 3 + 7);

@@ -1,0 +1,258 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/datapath_registers.h"
+
+namespace phongpipe {
+
+std::string DatapathSignal::block() const {
+  return scope.empty() ? "pixel_datapath" : "pixel_datapath." + scope;
+}
+
+double DatapathSignal::real(std::int64_t bits) const {
+  return std::ldexp(static_cast<double>(bits), -fraction_bits);
+}
+
+namespace {
+
+using Pixel = DatapathPixel;
+using Series = DatapathPixel::Series;
+
+class SignalTable {
+ public:
+  explicit SignalTable(const DatapathConfiguration& configuration)
+      : f_(configuration), stages_(datapath_stages(configuration)) {}
+
+  std::vector<DatapathSignal> all() {
+    add_control();
+    add_span();
+    add_all_series();
+    add_specular();
+    for (int c = 0; c < f_.channels; ++c) add_light(c);
+    if (f_.depth_cue) add_cueing();
+    std::stable_sort(
+        signals_.begin(), signals_.end(),
+        [](const DatapathSignal& a, const DatapathSignal& b) { return a.stage < b.stage; });
+    return std::move(signals_);
+  }
+
+ private:
+  template <typename Value>
+  DatapathSignal& add(int stage, const std::string& scope, const std::string& name, int width,
+                      Value value) {
+    DatapathSignal signal;
+    signal.scope = scope;
+    signal.name = name;
+    signal.stage = stage;
+    signal.width = width;
+    signal.value = [value, stage](const DatapathRegisters& r) {
+      return static_cast<std::int64_t>(value(r.in_stage(stage)));
+    };
+    return signals_.emplace_back(std::move(signal));
+  }
+  static std::string at(int stage, const char* name) { return fmt::format("s{}_{}", stage, name); }
+  static void in_units(DatapathSignal& signal, const char* unit, int fraction_bits,
+                       bool is_signed) {
+    signal.unit = unit;
+    signal.fraction_bits = fraction_bits;
+    signal.is_signed = is_signed;
+  }
+  // One bit of a pixel in stages `first` to `last`, which RTL keeps in a word that begins at
+  // `first`.
+  template <typename Value>
+  void add_flag(int first, int last, const std::string& scope, const char* name, Value value) {
+    for (int stage = first; stage <= last; ++stage) {
+      DatapathSignal& flag = add(stage, scope, at(stage, name), 1, value);
+      flag.packed = name;
+      flag.rtl_lsb = stage - first;
+    }
+  }
+
+  void add_control() {
+    add_flag(0, stages_ - 1, "", "valid", [](const Pixel& p) { return p.valid; });
+    for (DatapathSignal& valid : signals_) valid.always = true;
+    add_flag(0, 3, "", "first", [](const Pixel& p) { return p.step == 0; });
+    add_flag(1, 2, "", "restart", [](const Pixel& p) { return p.step <= 1; });
+    add(0, "", "remaining", kLengthBits, [](const Pixel& p) { return p.remaining; });
+    const auto add_count = [this](int stage, const char* name, auto count) {
+      DatapathSignal signal;
+      signal.scope = "queue";
+      signal.name = name;
+      signal.stage = stage;
+      signal.width = kPixelQueueBits + 1;
+      signal.always = signal.is_signed = true;
+      signal.value = [count](const DatapathRegisters& r) {
+        return -static_cast<std::int64_t>(count(r));
+      };
+      signals_.push_back(std::move(signal));
+    };
+    add_count(0, "minus_free", [](const DatapathRegisters& r) { return r.free_slots(); });
+    add_count(stages_ - 1, "minus_colors", [](const DatapathRegisters& r) { return r.queued(); });
+  }
+
+  void add_span() {
+    add(1, "", "s1_x", kCoordinateBits, [](const Pixel& p) { return p.x; });
+    add(1, "", "s1_y", kCoordinateBits, [](const Pixel& p) { return p.y; });
+    for (int c = 0; c < f_.channels; ++c) {
+      for (int stage = 1; stage <= 3; ++stage) {
+        DatapathSignal& level =
+            add(stage, fmt::format("channel[{}]", c), at(stage, "level"), f_.diffuse_width(),
+                [c](const Pixel& p) { return p.level[static_cast<std::size_t>(c)]; });
+        in_units(level, "LSB", f_.diffuse_fraction_bits, true);
+        level.packed = level.name;
+        level.rtl_lsb = c * f_.diffuse_width();
+      }
+    }
+  }
+
+  // `of`: the series of a pixel.
+  template <typename Of>
+  void add_series(const std::string& scope, const char* unit, int width, int fraction_bits, Of of) {
+    const auto whole = [&](int stage, const char* name, std::int64_t Series::*part) {
+      in_units(add(stage, scope, at(stage, name), width,
+                   [of, part](const Pixel& p) { return of(p).*part; }),
+               unit, fraction_bits, true);
+    };
+    const int low = low_bits(width);
+    const auto lower = [&](int stage, const char* name, std::int64_t Series::*part) {
+      add(stage, scope, at(stage, name), low,
+          [of, part, low](const Pixel& p) { return of(p).*part & ((std::int64_t{1} << low) - 1); });
+    };
+    const auto upper = [&](int stage, const char* name, std::int64_t Series::*part) {
+      add(stage, scope, at(stage, name), width - low, [of, part, low](const Pixel& p) {
+        return of(p).*part >> low;
+      }).is_signed = true;
+    };
+    whole(1, "term", &Series::term);
+    whole(1, "next_term", &Series::next_term);
+    whole(1, "last_term", &Series::last_term);
+    lower(2, "difference_low", &Series::difference);
+    upper(2, "term_high", &Series::term);
+    upper(3, "difference_high", &Series::difference);
+    lower(3, "v_low", &Series::v);
+    whole(kSeriesStage, "v", &Series::v);
+  }
+  void add_all_series() {
+    for (int c = 0; c < f_.channels && f_.diffuse; ++c) {
+      add_series(fmt::format("channel[{}].diffuse.diffuse_series", c), "LSB", f_.diffuse_width(),
+                 f_.diffuse_fraction_bits, [c](const Pixel& p) -> const Series& {
+                   return p.diffuse[static_cast<std::size_t>(c)];
+                 });
+    }
+    if (f_.specular) {
+      add_series("specular.specular_series", "address", f_.specular_width(),
+                 f_.specular_fraction_bits,
+                 [](const Pixel& p) -> const Series& { return p.specular; });
+    }
+    if (f_.has_gate_series()) {
+      add_series("specular.gate.gate_series", "LSB", f_.diffuse_width(), f_.diffuse_fraction_bits,
+                 [](const Pixel& p) -> const Series& { return p.gate; });
+    }
+    if (f_.depth_cue) {
+      add_series("cueing.cue_series", "", kCueWidth, kCueFraction,
+                 [](const Pixel& p) -> const Series& { return p.cue; });
+    }
+  }
+
+  void add_specular() {
+    if (!f_.specular) return;
+    add(1, "", "s1_highlight", 1, [](const Pixel& p) { return p.highlight; });
+    add_flag(2, 6, "", "highlight", [](const Pixel& p) { return p.highlight; });
+    add(5, "specular.rom", "s5_address", f_.rom_address_bits, [](const Pixel& p) {
+      return p.address;
+    }).unit = "address";
+    if (f_.has_gate_series()) {
+      add(5, "specular.gate", "s5_negative", 1, [](const Pixel& p) { return p.gate.v < 0; });
+      add(5, "specular.gate", "s5_zero", 1, [](const Pixel& p) { return p.gate.v == 0; });
+    }
+    add(7, "specular", "s7_open", 1, [](const Pixel& p) { return p.open; });
+    add(8, "", "s8_open", 1, [](const Pixel& p) { return p.open; });
+    for (int c = 0; c < f_.channels; ++c) {
+      const auto i = static_cast<std::size_t>(c);
+      add_word(c, "s8_word", [i](const Pixel& p) { return p.word[i]; });
+      if (f_.rom_layout == RomLayout::bipartite) {
+        add_word(c, "s8_increment", [i](const Pixel& p) { return p.increment[i]; });
+      }
+    }
+  }
+  template <typename Value>
+  void add_word(int channel, const std::string& name, Value value) {
+    const int bits = f_.rom_data_bits;
+    DatapathSignal& word = add(8, fmt::format("channel[{}]", channel), name, bits, value);
+    in_units(word, "LSB", bits - kOutputBits, false);
+    word.packed = name + "s";
+    word.rtl_lsb = channel * bits;
+  }
+
+  // The blocks of a channel from the comparison to the sum.
+  void add_light(int channel) {
+    const std::string scope = fmt::format("channel[{}].summation", channel);
+    const auto c = static_cast<std::size_t>(channel);
+    const int width = f_.diffuse_width(), low = low_bits(width);
+    const auto level_complement = [c](const Pixel& p) { return ~p.level[c]; };
+    const auto mask = [](auto value, int bits) {
+      return [value, bits](const Pixel& p) { return value(p) & ((std::int64_t{1} << bits) - 1); };
+    };
+    add(4, scope, "s4_level_complement", width - 1, mask(level_complement, width - 1));
+    add(5, scope, "s5_diffuse", width - low, [c, low](const Pixel& p) {
+      return p.diffuse[c].v >> low;
+    }).is_signed = true;
+    for (const int stage : {5, 6}) {
+      add_cut(stage, scope, "diffuse_cut", [c](const Pixel& p) { return p.diffuse_cut[c]; });
+      add_cut(stage, scope, "level_cut", [c](const Pixel& p) { return p.level_cut[c]; });
+    }
+    add(6, scope, "s6_lit", 1, [c](const Pixel& p) { return p.lit[c]; });
+    for (const int stage : {7, 8, 9}) {
+      add_cut(stage, scope, "clamped", [c](const Pixel& p) { return p.clamped[c]; });
+    }
+    if (f_.specular) {
+      in_units(
+          add(9, scope, "s9_addend", f_.rom_data_bits, [c](const Pixel& p) { return p.addend[c]; }),
+          "LSB", f_.rom_data_bits - kOutputBits, false);
+    }
+    add(kSumStage, scope, at(kSumStage, "sum"), kGuardBits + kOutputBits + 1, [c](const Pixel& p) {
+      return p.sum[c];
+    }).unit = "LSB";
+  }
+  template <typename Value>
+  void add_cut(int stage, const std::string& scope, const char* name, Value value) {
+    const int fraction = f_.sum_fraction_bits();
+    in_units(add(stage, scope, at(stage, name), kGuardBits + kOutputBits + fraction, value), "LSB",
+             fraction, false);
+  }
+
+  void add_cueing() {
+    add(1, "", "s1_first_pass", 1, [](const Pixel& p) { return p.first_pass; });
+    add_flag(2, kSumStage, "cueing", "first_pass", [](const Pixel& p) { return p.first_pass; });
+    for (int stage = kSeriesStage + 1; stage <= kSumStage; ++stage) {
+      add(stage, "cueing", at(stage, "factor"), kCueFactorBits + 1, [](const Pixel& p) {
+        return p.cue_factor;
+      }).fraction_bits = kCueFactorBits;
+    }
+    for (int channel = 0; channel < f_.channels; ++channel) {
+      const std::string scope = fmt::format("cueing.channel[{}].multiplier", channel);
+      const auto c = static_cast<std::size_t>(channel);
+      const int own_stage = kSumStage + 1;
+      in_units(add(own_stage, scope, at(own_stage, "own"), kGuardBits + kOutputBits + 2,
+                   [c](const Pixel& p) { return p.own[c]; }),
+               "LSB", 0, true);
+      add(stages_ - 1, scope, at(stages_ - 1, "color"), kOutputBits, [c](const Pixel& p) {
+        return p.color >> (c * kOutputBits) & kOutputMax;
+      }).unit = "LSB";
+    }
+  }
+
+  const DatapathConfiguration& f_;
+  int stages_;
+  std::vector<DatapathSignal> signals_;
+};
+
+}  // namespace
+
+std::vector<DatapathSignal> datapath_signals(const DatapathConfiguration& configuration) {
+  return SignalTable(configuration).all();
+}
+
+}  // namespace phongpipe
