@@ -138,6 +138,7 @@ module pixel_datapath #(
       .value({s1_y, s1_highlight, s1_first_pass, s1_level})
   );
   always_ff @(posedge clk) begin
+    // A multiplexer in the form that yosys does not turn into a synchronous set and reset.
     s0_x_term <= (span_x & {X_BITS{load}}) | X_BITS'(!load);
     if (valid[0]) s1_x <= first[0] ? s0_x_term : s1_x + s0_x_term;
     highlight <= {highlight[5:2], s1_highlight};

@@ -1,8 +1,9 @@
-// The queue behind a pipeline that never stalls. `room`: one more pixel may enter, for there is a slot for
-// every pixel that is in the pipeline, here or at the output.
+// The queue behind a pipeline that never stalls. `room`: one more pixel may enter, for there will be a slot
+// for it. A pixel is counted a clock after it entered, so that one more than there are slots may be inside:
+// it finds its slot free because another one stands at the output by then. Proved in pixel_queue_proof.sv.
 //
-// The place of a pixel is written before its colour. A pixel is at the output 2
-// clocks after its colour was written, or later; its slot is free 2 clocks after it left.
+// The place of a pixel is written before its colour. A pixel is at the output 2 clocks after its colour was
+// written, or later; its slot is free 2 clocks after it left.
 `include "constants.svh"
 
 module pixel_queue #(

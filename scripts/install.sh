@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# install.sh [ci|fuzz]: installs the Debian packages that are missing; says nothing where none is.
+# install.sh [ci|fuzz|synthesis]: installs the Debian packages that are missing; says nothing where none is.
 set -euo pipefail
 packages=(
   g++ cmake ninja-build ccache pkg-config git
@@ -13,6 +13,7 @@ packages=(
 case "${1:-}" in
   ci) packages+=(clang-format clang-tidy clang libclang-rt-dev) ;;
   fuzz) packages+=(clang libclang-rt-dev) ;;
+  synthesis) packages+=(nextpnr-ice40) ;;
 esac
 
 missing=()

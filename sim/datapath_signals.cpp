@@ -238,6 +238,14 @@ class SignalTable {
       in_units(add(own_stage, scope, at(own_stage, "own"), kGuardBits + kOutputBits + 2,
                    [c](const Pixel& p) { return p.own[c]; }),
                "LSB", 0, true);
+      // With the half that rounds it.
+      const int product_stage = stages_ - 2;
+      in_units(add(product_stage, scope, at(product_stage, "product"),
+                   kGuardBits + kOutputBits + 2 + kCueFactorBits,
+                   [c](const Pixel& p) {
+                     return std::int64_t{p.own[c]} * p.cue_factor + (1 << (kCueFactorBits - 1));
+                   }),
+               "LSB", kCueFactorBits, true);
       add(stages_ - 1, scope, at(stages_ - 1, "color"), kOutputBits, [c](const Pixel& p) {
         return p.color >> (c * kOutputBits) & kOutputMax;
       }).unit = "LSB";

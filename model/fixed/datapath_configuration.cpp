@@ -118,4 +118,13 @@ std::vector<std::pair<std::string_view, int>> rtl_parameters(
   return parameters;
 }
 
+std::string rtl_parameters_text(const DatapathConfiguration& datapath) {
+  std::string text;
+  for (const auto& [name, value] : rtl_parameters(datapath)) {
+    if (!text.empty()) text += '-';
+    text += std::string(name) + "=" + std::to_string(value);
+  }
+  return text;
+}
+
 }  // namespace phongpipe

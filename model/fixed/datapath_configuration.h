@@ -165,5 +165,8 @@ inline double least_certified_error_lsb(const DatapathConfiguration& datapath) {
 
 // The parameters of pixel_datapath.sv, by name.
 std::vector<std::pair<std::string_view, int>> rtl_parameters(const DatapathConfiguration& datapath);
+// "CHANNELS=1-DIFFUSE=1-…": names the RTL of a configuration in file names, messages, libraries and
+// technology cards.
+std::string rtl_parameters_text(const DatapathConfiguration& datapath);
 
 }  // namespace phongpipe

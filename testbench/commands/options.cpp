@@ -136,6 +136,12 @@ void HardwareOptions::add_to(CLI::App& command) {
                   "given again")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  command
+      .add_option_function<std::string>(
+          "--technology",
+          [this](const std::string& card) { overrides.push_back("technology=" + card); },
+          "Card that gives the clock: ice40-hx8k, ice40-up5k, ttl-1986, generic, or a TOML file")
+      ->type_name("CARD|FILE");
   command.add_flag("--help-settings",
                    "Explain all settings of the hardware, with units and ranges, and exit");
 }

@@ -267,6 +267,9 @@ void add_verify(CLI::App& application, Run& run) {
   command->add_flag("--hard-cases", options->hard_cases,
                     "Verify the shipped hard cases, or those named, a line each; --out gets a "
                     "contact sheet");
+  command->add_flag("--synthesize", v.synthesize,
+                    "Place and route the RTL for clock and area in the technology's device (20 s; "
+                    "needs yosys and nextpnr-ice40)");
   command->add_flag("-v,--verbose", options->verbose,
                     "Tell settings, effects and all metrics after the answer");
   add_rtl_option(*command, v.rtl_sources);
@@ -274,6 +277,7 @@ void add_verify(CLI::App& application, Run& run) {
       "Exit status: 0 all holds, 1 a check failed, 2 bad usage or input, 3 a tool or the machine "
       "failed.\n"
       "Example: phongpipe verify teapot --budget 80 --set rom_address_bits=12 --out pictures\n"
+      "         phongpipe verify teapot --technology ice40-up5k --synthesize\n"
       "         phongpipe verify --hard-cases --out hard\n");
   options->hardware.add_to(*command);
   command->callback([options, &run] { run = [options] { return verify_scenes(*options); }; });

@@ -129,7 +129,15 @@ std::vector<Metric> all_metrics() {
        "in which tables of highlights were loaded",
        [](const Result& r) { return count(r.systemc.counts.rom_load_cycles); }},
       {"clock_ns", "/clock_ns", "ns", kLess, "clock period of the technology",
-       [](const Result& r) -> MetricValue { return r.clock_ns; }, true},
+       [](const Result& r) -> MetricValue { return r.clock.ns; }, true},
+      {"luts", "/area/luts", "", kLess, "of pixel_datapath in the technology",
+       [](const Result& r) { return r.area ? count(r.area->luts) : MetricValue(); }, true},
+      {"registers", "/area/registers", "", kLess, "of pixel_datapath in the technology, in bits",
+       [](const Result& r) { return r.area ? count(r.area->registers) : MetricValue(); }, true},
+      {"block_rams", "/area/block_rams", "", kLess, "of pixel_datapath, where they were measured",
+       [](const Result& r) {
+         return r.area && r.area->block_rams ? count(*r.area->block_rams) : MetricValue();
+       }},
       {"datapath_ns_per_pixel", "/ns_per_pixel/datapath", "ns", kLess,
        "time in which the RTL's datapath was occupied, over the pixels shaded",
        [](const Result& r) {

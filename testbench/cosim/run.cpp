@@ -268,10 +268,15 @@ std::string canonical_text(std::uint64_t scene_hash, const Hardware& hardware,
   for (const Setting<Hardware>& setting : hardware_settings()) {
     text += fmt::format("{}={}\n", setting.name(), setting.value(hardware));
   }
-  const auto& [name, source, points, fixed_clock_ns, depth_cue_clock_ns] = hardware.technology;
-  text += fmt::format("technology={} {} {}", name, fixed_clock_ns, depth_cue_clock_ns);
-  for (const Technology::Point& point : points) {
-    text += fmt::format(" {}/{}:{}", point.width, point.address_bits, point.clock_ns);
+  const Technology& technology = hardware.technology;
+  text += fmt::format("technology={} {}", technology.name, technology.fixed.ns);
+  for (const MeasuredDesign& design : technology.measured) {
+    text += fmt::format(" {}:{},{},{},{}", design.parameters, design.clock_ns, design.luts,
+                        design.registers, design.block_rams);
+  }
+  for (const FittedModel* const model :
+       {&technology.clock_model, &technology.lut_model, &technology.register_model}) {
+    text += fmt::format(" {}", fmt::join(model->coefficients, ","));
   }
   text += "\n";
   for (const RunOption& option : run_options()) {

@@ -9,6 +9,8 @@
 #include "testbench/cosim/metrics.h"
 #include "testbench/cosim/stream_checker.h"
 #include "testbench/rtl/rtl_library.h"
+#include "testbench/synthesis/place_and_route.h"
+#include "testbench/system/installation.h"
 #include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
 
@@ -191,12 +193,12 @@ SimulationOptions simulation_options(const VerificationOptions& options) {
 }
 
 double VerificationResult::datapath_ns_per_pixel() const {
-  return clock_ns * static_cast<double>(rtl->counts.datapath_busy_cycles) /
+  return clock.ns * static_cast<double>(rtl->counts.datapath_busy_cycles) /
          static_cast<double>(pixels);
 }
 
 double VerificationResult::frame_ns_per_pixel() const {
-  return clock_ns * static_cast<double>(systemc.counts.frame_cycles) / static_cast<double>(pixels);
+  return clock.ns * static_cast<double>(systemc.counts.frame_cycles) / static_cast<double>(pixels);
 }
 
 const ImplementationResult* VerificationResult::diverging() const {
@@ -234,6 +236,27 @@ bool VerificationResult::passed() const {
          within_error() && certificate_holds() && set_up.overflows == 0;
 }
 
+namespace {
+
+// Clock and area of the configuration in the device of its technology.
+void synthesize(VerificationResult& result) {
+  const Technology& technology = result.hardware.technology;
+  if (technology.device.empty()) {
+    throw InputError(fmt::format(
+        "--synthesize: the technology {} has no device; choose --technology ice40-hx8k or "
+        "ice40-up5k",
+        technology.name));
+  }
+  const std::filesystem::path& sources = result.options.rtl_sources;
+  const MeasuredDesign design =
+      Netlist(result.configuration, sources.empty() ? installation().hardware : sources)
+          .place(technology.device, technology.package);
+  result.clock = {design.clock_ns, FigureKind::measured, 0, design.limited_by};
+  result.area = AreaFigure{FigureKind::measured, design.luts, design.registers, design.block_rams};
+}
+
+}  // namespace
+
 VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
                           const Hardware& hardware, const VerificationOptions& options,
                           const ShowProgress& progress, const TakePictures& take_pictures) {
@@ -246,8 +269,13 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
   result.scene = scene->scene.source;
   result.options = options;
   result.hardware = resolved(hardware, frame.setup.configuration);
-  result.clock_ns = hardware.technology.clock_ns(frame.setup.configuration);
+  result.clock = hardware.technology.clock(frame.setup.configuration);
+  result.area = hardware.technology.area(frame.setup.configuration);
   describe_frame(frame, result);
+  if (options.synthesize) {
+    show("placing and routing the RTL");
+    synthesize(result);
+  }
 
   std::optional<RtlLibrary> library;
   RtlBuildOptions build;

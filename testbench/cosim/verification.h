@@ -42,6 +42,7 @@ struct VerificationOptions {
   RtlToVerify rtl = RtlToVerify::native;
   std::filesystem::path rtl_sources;  // folder; empty: the installed RTL
   bool pictures = false;              // whether the result contains pictures
+  bool synthesize = false;            // place and route the RTL for its clock and area
   bool one_core = false;              // do everything in turn, for callers that run many at once
 };
 
@@ -71,7 +72,8 @@ struct VerificationResult {
   VerificationOptions options;
   Hardware hardware;  // resolved
   FrameConfiguration configuration;
-  double clock_ns = 0;
+  ClockFigure clock;
+  std::optional<AreaFigure> area;   // of pixel_datapath, if the technology knows
   std::vector<std::string> notes;   // messages for the user about the scene
   std::size_t triangles_read = 0;   // of the meshes
   std::size_t triangles = 0;        // after clipping and culling
@@ -127,8 +129,7 @@ using ShowProgress = std::function<void(const std::string&)>;
 // Called once the result has its pictures, while SystemC and RTL may still be simulated.
 using TakePictures = std::function<void(const VerificationResult&)>;
 
-// Throws InputError if no pixel is visible, or if the technology has no clock for the
-// configuration.
+// Throws InputError if no pixel is visible, or if the technology has no device to synthesize for.
 VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
                           const Hardware& hardware, const VerificationOptions& options,
                           const ShowProgress& progress = {},

@@ -130,6 +130,13 @@ Settings<Hardware> all_settings() {
   return all;
 }
 
+void apply_overrides(Hardware& hardware, const std::vector<std::string>& overrides,
+                     std::string& technology) {
+  for (const std::string& text : overrides) {
+    if (!is_scene_key(text)) apply_override(hardware, text, technology);
+  }
+}
+
 }  // namespace
 
 const Settings<Hardware>& hardware_settings() {
@@ -143,8 +150,9 @@ Hardware load_hardware(const std::string& name, const std::vector<std::string>& 
   const auto file = find_named(name, installation().hardware / "presets", "preset");
   hardware.name = file.stem().string();
   read_settings(hardware, TomlTable::read_file(file), technology);
+  apply_overrides(hardware, overrides, technology);
   hardware.technology = load_technology(technology);
-  return override_hardware(std::move(hardware), overrides);
+  return hardware;
 }
 
 Hardware parse_hardware(const std::string& text, const std::filesystem::path& file) {
@@ -158,11 +166,7 @@ Hardware parse_hardware(const std::string& text, const std::filesystem::path& fi
 
 Hardware override_hardware(Hardware hardware, const std::vector<std::string>& overrides) {
   std::string technology;
-  for (const std::string& text : overrides) {
-    if (!is_scene_key(text)) {
-      apply_override(hardware, text, technology);
-    }
-  }
+  apply_overrides(hardware, overrides, technology);
   if (!technology.empty()) hardware.technology = load_technology(technology);
   return hardware;
 }

@@ -3,62 +3,144 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "model/files/toml_reader.h"
+#include "model/fixed/constants.h"
 #include "model/scene/input_error.h"
 #include "testbench/system/installation.h"
 
 namespace phongpipe {
 namespace {
 
-using Point = Technology::Point;
+constexpr double kLeastClockNs = 0.001, kMostClockNs = 1e6;
+constexpr int kMostCells = 10'000'000;
 
-// The first point of the given table size that is wide enough, or null.
-const Point* wide_enough(const std::vector<Point>& points, int address_bits, int width) {
-  const auto found = std::find_if(points.begin(), points.end(), [&](const Point& point) {
-    return point.address_bits == address_bits && point.width >= width;
-  });
-  return found == points.end() ? nullptr : &*found;
-}
-
-const Point* point_at(const std::vector<Point>& points, int address_bits, int width) {
-  const Point* point = wide_enough(points, address_bits, width);
-  return point != nullptr && point->width == width ? point : nullptr;
-}
-
-// What tables of `address_bits` cost over those of `base_bits`, at a width where both are known.
-double table_penalty(const std::vector<Point>& points, int base_bits, int address_bits) {
-  for (const Point& point : points) {
-    if (point.address_bits != address_bits) continue;
-    const Point* base = point_at(points, base_bits, point.width);
-    if (base != nullptr) return point.clock_ns - base->clock_ns;
+FittedModel read_model(const TomlTable& models, std::string_view name) {
+  const TomlTable table = models.table(name);
+  FittedModel model;
+  model.relative_error = table.number("relative_error", {0, 10});
+  for (const auto& [feature, value] : synthesis_features({})) {
+    const NumberRange any = {-1e6, 1e6};
+    model.coefficients.push_back(feature == "constant" ? table.number(feature, any)
+                                                       : table.number(feature, any, 0));
   }
-  throw InputError(
-      fmt::format("no width with both {} and {} address bits", base_bits, address_bits));
+  table.finish();
+  return model;
+}
+
+MeasuredDesign read_design(const TomlTable& table) {
+  MeasuredDesign design;
+  design.parameters = table.text("parameters");
+  design.clock_ns = table.number("clock_ns", {kLeastClockNs, kMostClockNs});
+  design.slowest_ns = table.number("slowest_ns", {kLeastClockNs, kMostClockNs});
+  design.limited_by = table.text("limited_by");
+  design.luts = table.integer("luts", 1, kMostCells);
+  design.registers = table.integer("registers", 1, kMostCells);
+  design.carries = table.integer("carries", 0, kMostCells);
+  design.block_rams = table.integer("block_rams", 0, kMostCells);
+  table.finish();
+  return design;
+}
+
+// How many of the parameters two designs have in common.
+std::ptrdiff_t in_common(std::string_view a, std::string_view b) {
+  const auto parts = [](std::string_view text) {
+    std::vector<std::string_view> all;
+    for (std::size_t end = 0; end != std::string_view::npos;) {
+      end = text.find('-');
+      all.push_back(text.substr(0, end));
+      if (end != std::string_view::npos) text.remove_prefix(end + 1);
+    }
+    return all;
+  };
+  const std::vector<std::string_view> known = parts(b);
+  const std::vector<std::string_view> asked = parts(a);
+  return std::count_if(asked.begin(), asked.end(), [&](std::string_view part) {
+    return std::find(known.begin(), known.end(), part) != known.end();
+  });
 }
 
 }  // namespace
 
-double Technology::clock_ns(const DatapathConfiguration& configuration) const {
-  if (points.empty()) return fixed_clock_ns;
-  const int width = std::max(configuration.diffuse_width(), configuration.specular_width());
-  std::vector<int> sizes;
-  for (const Point& point : points) sizes.push_back(point.address_bits);
-  std::sort(sizes.begin(), sizes.end());
-  int table_bits = 0;  // the table has up to 2^this words
-  while (1 << table_bits < configuration.rom_bases()) ++table_bits;
-  const auto size = std::lower_bound(sizes.begin(), sizes.end(), table_bits);
-  const Point* base = wide_enough(points, sizes.front(), width);
-  if (size == sizes.end() || base == nullptr) {
-    throw InputError(fmt::format(
-        "technology {} has no clock for {} bits and a ROM of 2^{} words; choose a smaller "
-        "configuration or the card `generic`",
-        name, width, table_bits));
+std::string_view name(FigureKind kind) {
+  constexpr std::string_view kNames[] = {"measured", "fitted", "assumed"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string kind_text(const ClockFigure& clock) {
+  if (clock.kind != FigureKind::fitted) return std::string(name(clock.kind));
+  return fmt::format("fitted ± {:.0f} %", std::ceil(100 * clock.relative_error));
+}
+
+std::vector<std::pair<std::string_view, double>> synthesis_features(
+    const DatapathConfiguration& c) {
+  const int diffuse = c.diffuse ? c.channels : 0, specular = c.specular ? 1 : 0;
+  const int gate = c.has_gate_series() ? 1 : 0, cue = c.depth_cue ? 1 : 0;
+  int longest = low_bits(c.diffuse_width());  // of the carries
+  if (specular != 0) longest = std::max(longest, low_bits(c.specular_width()));
+  if (cue != 0) longest = std::max(longest, low_bits(kCueWidth));
+  const bool plain = c.rom_layout == RomLayout::plain;
+  constexpr int kBankBits = 11;
+  const int banks =
+      plain && c.rom_address_bits > kBankBits ? 1 << (c.rom_address_bits - kBankBits) : 1;
+  return {{"constant", 1},
+          {"channels", c.channels},
+          {"longest_low_carry_bits", longest},
+          {"series_bits",
+           (diffuse + gate) * c.diffuse_width() + specular * c.specular_width() + cue * kCueWidth},
+          {"level_bits", c.channels * c.diffuse_width()},
+          {"word_bits", specular * c.channels * c.rom_data_bits},
+          {"bank_bits", specular * c.channels * c.rom_data_bits * (banks - 1)},
+          {"octave_address_bits", plain ? 0 : specular * c.rom_address_bits},
+          {"increment_bits",
+           c.rom_layout == RomLayout::bipartite ? specular * c.channels * c.rom_data_bits : 0},
+          {"specular", specular},
+          {"gate_series", gate},
+          {"depth_cue", cue},
+          {"depth_cue_channels", cue * c.channels}};
+}
+
+double FittedModel::value(const DatapathConfiguration& configuration) const {
+  double sum = 0;
+  std::size_t i = 0;
+  for (const auto& [name, value] : synthesis_features(configuration)) {
+    sum += coefficients[i++] * value;
   }
-  const bool larger_table = *size != sizes.front();
-  const double ns =
-      base->clock_ns + (larger_table ? table_penalty(points, sizes.front(), *size) : 0);
-  return configuration.depth_cue ? std::max(ns, depth_cue_clock_ns) : ns;
+  return sum;
+}
+
+const MeasuredDesign* Technology::find(const DatapathConfiguration& configuration) const {
+  const std::string parameters = rtl_parameters_text(configuration);
+  const auto found =
+      std::find_if(measured.begin(), measured.end(),
+                   [&](const MeasuredDesign& design) { return design.parameters == parameters; });
+  return found == measured.end() ? nullptr : &*found;
+}
+
+ClockFigure Technology::clock(const DatapathConfiguration& configuration) const {
+  if (measured.empty()) return fixed;
+  const MeasuredDesign* design = find(configuration);
+  if (design != nullptr) return {design->clock_ns, FigureKind::measured, 0, design->limited_by};
+  // The block that limits what is most like it.
+  const std::string parameters = rtl_parameters_text(configuration);
+  design = &*std::max_element(
+      measured.begin(), measured.end(), [&](const MeasuredDesign& a, const MeasuredDesign& b) {
+        return in_common(parameters, a.parameters) < in_common(parameters, b.parameters);
+      });
+  return {clock_model.value(configuration), FigureKind::fitted, clock_model.relative_error,
+          design->limited_by};
+}
+
+std::optional<AreaFigure> Technology::area(const DatapathConfiguration& configuration) const {
+  if (measured.empty()) return {};
+  if (const MeasuredDesign* const design = find(configuration)) {
+    return AreaFigure{FigureKind::measured, design->luts, design->registers, design->block_rams};
+  }
+  const auto count = [&](const FittedModel& model) {
+    return static_cast<int>(std::lround(model.value(configuration)));
+  };
+  return AreaFigure{FigureKind::fitted, count(lut_model), count(register_model), {}};
 }
 
 Technology load_technology(const std::string& name) {
@@ -67,23 +149,20 @@ Technology load_technology(const std::string& name) {
   Technology technology;
   technology.name = table.text("name");
   technology.source = table.text("source");
-  const NumberRange nanoseconds = {0.001, 1e6};
   if (table.has("clock_ns")) {
-    table.refuse("clock", "a card has either clock_ns or [[clock]] points");
-    technology.fixed_clock_ns = table.number("clock_ns", nanoseconds);
+    table.refuse("measured", "a card has either clock_ns or [[measured]] designs");
+    technology.fixed.ns = table.number("clock_ns", {kLeastClockNs, kMostClockNs});
+    technology.fixed.limited_by = table.text("limited_by", "");
   } else {
-    for (const TomlTable& point : table.tables("clock")) {
-      technology.points.push_back({point.integer("width", 1, 64),
-                                   point.integer("address_bits", 1, 20),
-                                   point.number("ns", nanoseconds)});
-      point.finish();
-    }
-    technology.depth_cue_clock_ns = table.number("depth_cue_ns", nanoseconds, 0);
-    std::sort(technology.points.begin(), technology.points.end(),
-              [](const Point& a, const Point& b) { return a.width < b.width; });
-    // Fail at the card, not at the configuration that happens to need the missing pair.
-    for (const Point& point : technology.points) {
-      table_penalty(technology.points, technology.points.front().address_bits, point.address_bits);
+    technology.device = table.text("device");
+    technology.package = table.text("package");
+    const TomlTable fitted = table.table("fitted");
+    technology.clock_model = read_model(fitted, "clock_ns");
+    technology.lut_model = read_model(fitted, "luts");
+    technology.register_model = read_model(fitted, "registers");
+    fitted.finish();
+    for (const TomlTable& design : table.tables("measured")) {
+      technology.measured.push_back(read_design(design));
     }
   }
   table.finish();

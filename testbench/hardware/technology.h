@@ -1,30 +1,70 @@
-// A technology card: the clock period of the pixel datapath, by its width, table size and effects.
+// A technology card: clock period and area of pixel_datapath in a technology. Cards of devices hold
+// what was placed and routed, and a linear model of it for all other configurations; cards of other
+// technologies hold one clock, which is assumed.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "model/fixed/datapath_configuration.h"
 
 namespace phongpipe {
 
-struct Technology {
-  struct Point {
-    int width = 0;         // bits of the widest series
-    int address_bits = 0;  // of the ROM
-    double clock_ns = 0;
-  };
-  std::string name;
-  std::string source;         // where the figures come from
-  std::vector<Point> points;  // sorted by width; empty if the clock is fixed
-  double fixed_clock_ns = 0;
-  // Least clock period with the multiplier of depth cueing; with `points` only.
-  double depth_cue_clock_ns = 0;
+// How a figure is known: placed and routed, fitted to such figures, or set by the card.
+enum class FigureKind { measured, fitted, assumed };
+std::string_view name(FigureKind kind);
 
-  // The clock period of the narrowest point that is wide enough. A larger table adds the difference
-  // measured at a width that has both table sizes. Throws InputError if no point is large enough.
-  double clock_ns(const DatapathConfiguration& configuration) const;
+struct ClockFigure {
+  double ns = 0;
+  FigureKind kind = FigureKind::assumed;
+  double relative_error = 0;  // largest of the fitted model, leaving one out; 0 if not fitted
+  std::string limited_by;     // block whose path is the longest, as far as it is known
+};
+// "measured", "fitted ± 7 %" or "assumed".
+std::string kind_text(const ClockFigure& clock);
+
+struct AreaFigure {
+  FigureKind kind = FigureKind::measured;
+  int luts = 0, registers = 0;
+  std::optional<int> block_rams;  // only measured
+};
+
+// A configuration that was placed and routed.
+struct MeasuredDesign {
+  std::string parameters;  // of the RTL, as rtl_parameters_text() has them
+  double clock_ns = 0;     // median of the seeds
+  double slowest_ns = 0;   // of the seeds
+  std::string limited_by;  // block at the end of the longest path, of the seed with the median
+  int luts = 0, registers = 0, carries = 0, block_rams = 0;
+};
+
+// What the figures of a configuration depend on, as a linear model sees it: names and values.
+std::vector<std::pair<std::string_view, double>> synthesis_features(
+    const DatapathConfiguration& configuration);
+
+// A sum of features with coefficients.
+struct FittedModel {
+  double relative_error = 0;         // largest, leaving one measured design out after the other
+  std::vector<double> coefficients;  // in the order of synthesis_features(); 0: not used; 0: not used
+  double value(const DatapathConfiguration& configuration) const;
+};
+
+struct Technology {
+  std::string name;
+  std::string source;           // where the figures come from
+  std::string device, package;  // for nextpnr; empty if it cannot be placed and routed
+  std::vector<MeasuredDesign> measured;
+  FittedModel clock_model, lut_model, register_model;  // if `measured`
+  ClockFigure fixed;                                   // if not `measured`
+
+  ClockFigure clock(const DatapathConfiguration& configuration) const;
+  // None if the card has no areas.
+  std::optional<AreaFigure> area(const DatapathConfiguration& configuration) const;
+  const MeasuredDesign* find(const DatapathConfiguration& configuration) const;  // or null
 };
 
 // Loads a card from a file, or by its name. Throws InputError.

@@ -172,7 +172,7 @@ class SceneComparison {
     result.clocks_per_pixel =
         amortised(result.costs, visibility,
                   [&units](const OperationCounts& counts) { return clocks(counts, units); });
-    result.ns_per_pixel = result.clocks_per_pixel * comparison_.clock_ns;
+    result.ns_per_pixel = result.clocks_per_pixel * comparison_.clock.ns;
     result.operations_per_pixel = amortised(result.costs, visibility, sequential_operations);
     result.break_even_pixels = break_even_pixels(result.costs, phong, sequential_operations);
   }
@@ -218,7 +218,7 @@ Comparison compare(const Scene& scene, const Hardware& hardware,
   const Geometry geometry = make_geometry(scene);
   const EffectBlocks blocks = derive_blocks(hardware.formats, scene, geometry);
   comparison.hardware = resolved(hardware, blocks);
-  comparison.clock_ns = hardware.technology.clock_ns({hardware.formats, blocks});
+  comparison.clock = hardware.technology.clock({hardware.formats, blocks});
   comparison.width = scene.image.width;
   comparison.height = scene.image.height;
   comparison.channels = is_grey(scene, geometry) ? 1 : 3;

@@ -40,7 +40,7 @@ struct MethodResult {
 struct Comparison {
   std::string scene;  // its name in messages
   Hardware hardware;  // resolved
-  double clock_ns = 0;
+  ClockFigure clock;
   int width = 0, height = 0, channels = 3;
   std::size_t triangles = 0, spans = 0, pixels = 0;  // triangles with a pixel, rows, shaded pixels
   PowerKind power = PowerKind::exact;

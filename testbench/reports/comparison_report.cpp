@@ -156,14 +156,14 @@ std::vector<std::string> summary_of(const Comparison& comparison) {
 
 std::string comparison_text(const Comparison& comparison) {
   std::string text = fmt::format(
-      "{}: {} triangles, {} spans, {} pixels shaded; clock {:.2f} ns ({})\n{}"
+      "{}: {} triangles, {} spans, {} pixels shaded; clock {:.2f} ns ({}, {})\n{}"
       "{:<20} {:>12} {:>14} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8} {:>8} {:>7}\n"
       "{:<20} {:>12} {:>14} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8} {:>8} {:>7}\n",
       comparison.scene, comparison.triangles, comparison.spans, comparison.pixels,
-      comparison.clock_ns, comparison.hardware.technology.name, subdivision_text(comparison),
-      "method", "a pixel", "a triangle", "clocks", "ns", "speed", "pays from", "largest", "largest",
-      "RMS", "seam", "", "+/×/÷/√/read", "+/×/÷/√/read", "a pixel", "a pixel", "×Phong", "pixels",
-      "LSB", "×Taylor", "LSB", "LSB");
+      comparison.clock.ns, kind_text(comparison.clock), comparison.hardware.technology.name,
+      subdivision_text(comparison), "method", "a pixel", "a triangle", "clocks", "ns", "speed",
+      "pays from", "largest", "largest", "RMS", "seam", "", "+/×/÷/√/read", "+/×/÷/√/read",
+      "a pixel", "a pixel", "×Phong", "pixels", "LSB", "×Taylor", "LSB", "LSB");
   const double phong = wall_clock_of_phong(comparison);
   const double taylor = largest_error_of_taylor(comparison);
   for (const MethodResult& r : comparison.methods) {
@@ -234,7 +234,9 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
           {"spans", comparison.spans},
           {"pixels", comparison.pixels},
           {"subdivision", {{"triangles", comparison.split}, {"pieces", comparison.pieces}}},
-          {"clock_ns", comparison.clock_ns},
+          {"clock_ns", comparison.clock.ns},
+          {"clock_kind", name(comparison.clock.kind)},
+          {"clock_limited_by", comparison.clock.limited_by},
           {"methods", methods}};
 }
 

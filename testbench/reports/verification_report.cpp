@@ -184,8 +184,9 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
 std::string time_text(const Page& page, const VerificationResult& r) {
   const std::string frame =
       fmt::format("{:.2f} of {:.10g} ns a pixel", r.frame_ns_per_pixel(), r.options.budget_ns);
-  return fmt::format("{}; {}limited by {}",
+  return fmt::format("{}, clock {:.2f} ns {}; {}limited by {}",
                      r.within_budget() ? frame : page.toned(Tone::bad, frame + ", OVER BUDGET"),
+                     r.clock.ns, kind_text(r.clock),
                      r.rtl ? fmt::format("datapath {:.2f}; ", r.datapath_ns_per_pixel()) : "",
                      limiting_block(r));
 }
@@ -227,7 +228,7 @@ void report_ledger(Page& page, const VerificationResult& r) {
         count_text(cycles));
     if (pixels > 0 && cycles > 0) {
       line += fmt::format(", {:.2f} ns a pixel",
-                          r.clock_ns * static_cast<double>(cycles) / static_cast<double>(pixels));
+                          r.clock.ns * static_cast<double>(cycles) / static_cast<double>(pixels));
     }
     page.line("", line);
   }
@@ -253,7 +254,8 @@ void for_each_block_metric(const VerificationResult& r, Visit visit) {
   if (r.full_hardware) {
     full.pixels = r.pixels;
     full.configuration = {r.full_hardware->datapath, r.configuration};
-    full.clock_ns = r.hardware.technology.clock_ns(r.full_hardware->datapath);
+    full.clock = r.hardware.technology.clock(r.full_hardware->datapath);
+    full.area = r.hardware.technology.area(r.full_hardware->datapath);
     full.systemc = r.full_hardware->systemc;
   }
   for (const Metric& metric : metrics()) {
@@ -276,7 +278,7 @@ void report_effects(Page& page, const VerificationResult& r) {
   page.plain("hardware for the scene, with every effect, and the difference");
   for_each_block_metric(
       r, [&](const Metric& metric, const MetricValue& own, const MetricValue& full) {
-        const double all = *number_of(full);
+        const double all = number_of(full).value_or(0);
         const double percent = all > 0 ? std::round(100 * (*number_of(own) / all - 1)) : 0;
         page.plain(fmt::format("  {:<27} {:>14} {:>14} {:+5.0f} %", metric.name, metric_text(own),
                                metric_text(full), percent == 0 ? 0.0 : percent));
@@ -415,6 +417,8 @@ ordered_json report_json(const VerificationResult& r, const std::string& capsule
       {"scene", r.scene},
       {"passed", r.passed()},
       {"configuration", configuration_json(r)},
+      {"clock_kind", name(r.clock.kind)},
+      {"clock_limited_by", r.clock.limited_by},
       {"configuration_hash", configuration_hash(r.hardware)},
       {"detail", r.options.detail == Detail::cycle ? "cycle" : "span"},
       {"stall_percent", r.options.stall_percent},

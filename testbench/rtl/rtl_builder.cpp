@@ -227,14 +227,6 @@ std::vector<fs::path> rtl_sources(const fs::path& folder) {
   return files;
 }
 
-std::string rtl_parameters_text(const DatapathConfiguration& configuration) {
-  std::string text;
-  for (const auto& [name, value] : rtl_parameters(configuration)) {
-    text += fmt::format("{}{}={}", text.empty() ? "" : "-", name, value);
-  }
-  return text;
-}
-
 // The tools run in the scratch folder and get only names relative to it, or of the installation:
 // Verilator is a Perl script that mangles others. All that it generates is compiled as one file,
 // for most of the time of a file goes into headers.

@@ -14,9 +14,6 @@ namespace phongpipe {
 // there is no .sv file.
 std::vector<std::filesystem::path> rtl_sources(const std::filesystem::path& folder);
 
-// "CHANNELS=1-DIFFUSE=1-…": names the RTL of a configuration in file names, messages and libraries.
-std::string rtl_parameters_text(const DatapathConfiguration& configuration);
-
 // The RTL of one configuration and the file that it is to be found in.
 struct RtlTarget {
   DatapathConfiguration configuration;

@@ -362,7 +362,7 @@ RecordedTrace record_trace(const PreparedFrame& frame, const Hardware& hardware,
                            const RtlLibrary& library, const std::vector<CycleWindow>& windows,
                            const TraceTarget& target, const TraceOptions& options,
                            const std::filesystem::path& file) {
-  const double clock_ns = hardware.technology.clock_ns(frame.setup.configuration);
+  const double clock_ns = hardware.technology.clock(frame.setup.configuration).ns;
   constexpr double kPicoseconds = 1000;  // in a nanosecond
   const auto period = static_cast<std::uint64_t>(std::llround(clock_ns * kPicoseconds));
   Child child([&] {

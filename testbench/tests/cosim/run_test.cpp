@@ -43,7 +43,7 @@ TEST(RunIdentity, EverySettingOptionAndLimitCounts) {
     EXPECT_EQ(identities.size(), ++expected) << key;
   }
   Hardware card = hardware;
-  card.technology.points.front().clock_ns += 0.001;
+  card.technology.measured.front().clock_ns += 0.001;
   identities.insert(identity(card));
   EXPECT_EQ(identities.size(), ++expected) << "the content of the technology card";
 }

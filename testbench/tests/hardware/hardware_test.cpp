@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "model/files/text_file.h"
 #include "model/scene/input_error.h"
-#include "testbench/cases/format_range.h"
+#include "testbench/system/installation.h"
+#include "testbench/system/output_file.h"
 
 namespace phongpipe {
 namespace {
@@ -77,43 +79,93 @@ TEST(Hardware, OnlyTheDefaultSplitsTriangles) {
   EXPECT_EQ(load_hardware("paper-8k", {}).setup.subdivide_degrees, 0);
 }
 
-TEST(Technology, ClockOfTheNextWiderPoint) {
-  const Technology card = load_technology("ice40-hx8k");
-  FrameConfiguration c;
-  c.diffuse_fraction_bits = 14;  // 24 bits
-  c.specular_fraction_bits = 4;
-  EXPECT_DOUBLE_EQ(card.clock_ns(c), 7.1);
-  c.diffuse_fraction_bits = 15;  // 25 bits: the point of 28
-  EXPECT_DOUBLE_EQ(card.clock_ns(c), 7.4);
-  c.rom_address_bits = 6;  // smaller tables than were measured cost no more
-  EXPECT_DOUBLE_EQ(card.clock_ns(c), 7.4);
+DatapathConfiguration of_preset(const char* preset) {
+  DatapathConfiguration datapath{load_hardware(preset, {}).formats, {}};
+  datapath.specular_guard_bits = least_specular_guard_bits(datapath.rom_layout);
+  return datapath;
 }
 
-TEST(Technology, LargerTablesAddWhatTheyAddWhereBothWereMeasured) {
-  const Technology card = load_technology("ice40-hx8k");
-  FrameConfiguration c;
-  c.diffuse_fraction_bits = 14;
-  c.specular_fraction_bits = 4;
-  c.rom_address_bits = 13;
-  EXPECT_DOUBLE_EQ(card.clock_ns(c), 9.6);
-  c.diffuse_fraction_bits = 30;
-  EXPECT_DOUBLE_EQ(card.clock_ns(c), 9.2 + (9.6 - 7.1));
-  c.rom_address_bits = 11;  // between the sizes: the larger one's clock
-  EXPECT_DOUBLE_EQ(card.clock_ns(c), 9.2 + (9.6 - 7.1));
+TEST(Technology, PresetsAreMeasured) {
+  for (const char* name : {"ice40-hx8k", "ice40-up5k"}) {
+    const Technology card = load_technology(name);
+    for (const char* preset : {"default", "paper-1k", "paper-8k"}) {
+      const ClockFigure clock = card.clock(of_preset(preset));
+      EXPECT_EQ(clock.kind, FigureKind::measured) << name << " " << preset;
+      EXPECT_EQ(kind_text(clock), "measured");
+      EXPECT_NE(clock.limited_by, "");
+      const auto area = card.area(of_preset(preset));
+      ASSERT_TRUE(area.has_value());
+      EXPECT_EQ(area->kind, FigureKind::measured);
+      EXPECT_TRUE(area->block_rams.has_value());
+    }
+  }
 }
 
-TEST(Technology, GenericIsFixed) {
-  const Technology card = load_technology("generic");
-  EXPECT_DOUBLE_EQ(card.clock_ns({}), 20);
+// The clock that pixel_datapath must reach, in ns.
+TEST(Technology, PresetsAreAsFastAsTheyMustBe) {
+  const Technology large = load_technology("ice40-hx8k"), small = load_technology("ice40-up5k");
+  for (const char* preset : {"default", "paper-1k", "paper-8k"}) {
+    EXPECT_LE(large.clock(of_preset(preset)).ns, 5.5) << preset;
+    EXPECT_LE(small.clock(of_preset(preset)).ns, 13.5) << preset;
+  }
+}
+
+TEST(Technology, OtherConfigurationsAreFittedWithinAStatedError) {
+  for (const char* name : {"ice40-hx8k", "ice40-up5k"}) {
+    const Technology card = load_technology(name);
+    DatapathConfiguration c = of_preset("paper-1k");
+    c.diffuse_fraction_bits = 17;
+    const ClockFigure clock = card.clock(c);
+    EXPECT_EQ(clock.kind, FigureKind::fitted);
+    EXPECT_EQ(clock.relative_error, card.clock_model.relative_error);
+    EXPECT_EQ(kind_text(clock).rfind("fitted ± ", 0), 0U) << kind_text(clock);
+    EXPECT_NEAR(clock.ns / card.clock(of_preset("paper-1k")).ns, 1, 0.3);
+    const auto area = card.area(c);
+    EXPECT_EQ(area->kind, FigureKind::fitted);
+    EXPECT_FALSE(area->block_rams.has_value());
+    EXPECT_GT(area->luts, card.area(of_preset("paper-1k"))->luts - 30);
+  }
 }
 
 TEST(Technology, EveryLegalConfigurationHasAClock) {
   const Technology card = load_technology("ice40-hx8k");
-  FrameConfiguration c;
-  c.diffuse_fraction_bits = kMaxDiffuseFraction;
-  c.specular_fraction_bits = kMaxSpecularFraction;
-  c.rom_address_bits = kMaxRomAddressBits;
-  EXPECT_GT(card.clock_ns(c), 9.2);
+  for (const bool highest : {false, true}) {
+    DatapathConfiguration c;
+    c.channels = highest ? 3 : 1;
+    c.depth_cue = highest;
+    for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
+      if (!setting.rtl_parameter.empty()) setting.put(c, highest ? setting.high : setting.low);
+    }
+    EXPECT_GT(card.clock(c).ns, 3);
+    EXPECT_LT(card.clock(c).ns, 20);
+    EXPECT_GT(card.area(c)->luts, 100);
+  }
+}
+
+TEST(Technology, CardsWithAFixedClockAssumeIt) {
+  const Technology card = load_technology("generic");
+  EXPECT_DOUBLE_EQ(card.clock({}).ns, 20);
+  EXPECT_EQ(kind_text(card.clock({})), "assumed");
+  EXPECT_FALSE(card.area({}).has_value());
+  EXPECT_EQ(load_technology("ttl-1986").clock({}).limited_by, "exponent_rom");
+}
+
+TEST(Technology, ACardWithoutANeededFigureIsRefused) {
+  const std::string file = testing::TempDir() + "phongpipe-card.toml";
+  const std::string text = read_whole_file(installation().hardware / "technology/ice40-hx8k.toml");
+  for (const char* line : {"package = ", "relative_error = ", "constant = ", "slowest_ns = "}) {
+    std::string broken = text;
+    const std::size_t at = broken.find(line);
+    broken.erase(at, broken.find('\n', at) - at);
+    write_text(file, broken);
+    try {
+      load_technology(file);
+      ADD_FAILURE() << "accepted without " << line;
+    } catch (const InputError& error) {
+      const std::string key(line, std::string_view(line).find(' '));
+      EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace

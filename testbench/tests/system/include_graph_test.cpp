@@ -16,11 +16,11 @@ namespace fs = std::filesystem;
 
 // From the bottom up. A file may include its own room's headers and those of the rooms before it.
 constexpr std::string_view kRooms[] = {
-    "model/scene/",        "model/shading/",       "model/fixed/",        "sim/",
-    "model/files/",        "testbench/system/",    "testbench/drawing/",  "testbench/hardware/",
-    "testbench/rtl/",      "testbench/accuracy/",  "testbench/cosim/",    "testbench/cases/",
-    "testbench/trace/",    "testbench/methods/",   "testbench/campaign/", "testbench/reports/",
-    "testbench/commands/", "testbench/generators/"};
+    "model/scene/",       "model/shading/",       "model/fixed/",         "sim/",
+    "model/files/",       "testbench/system/",    "testbench/drawing/",   "testbench/hardware/",
+    "testbench/rtl/",     "testbench/synthesis/", "testbench/accuracy/",  "testbench/cosim/",
+    "testbench/cases/",   "testbench/trace/",     "testbench/methods/",   "testbench/campaign/",
+    "testbench/reports/", "testbench/commands/",  "testbench/generators/"};
 // They stand beside the program and may include anything, but nothing includes them.
 constexpr std::string_view kOutside[] = {"testbench/tests/", "testbench/bench/", "testbench/fuzz/"};
 

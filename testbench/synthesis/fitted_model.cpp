@@ -1,0 +1,67 @@
+#include "testbench/synthesis/fitted_model.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace phongpipe {
+namespace {
+
+// The least coefficients that fit the rows, for features that always occur together.
+Eigen::VectorXd solve(const Eigen::MatrixXd& features, const Eigen::VectorXd& values) {
+  const Eigen::VectorXd weights = values.cwiseInverse();
+  return (weights.asDiagonal() * features)
+      .completeOrthogonalDecomposition()
+      .solve(Eigen::VectorXd::Ones(values.size()));
+}
+
+Eigen::VectorXd without(const Eigen::VectorXd& all, Eigen::Index left_out) {
+  Eigen::VectorXd rest(all.size() - 1);
+  rest << all.head(left_out), all.tail(all.size() - left_out - 1);
+  return rest;
+}
+
+}  // namespace
+
+std::vector<std::string_view> area_features() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, value] : synthesis_features({})) names.push_back(name);
+  return names;
+}
+
+std::vector<std::string_view> clock_features() {
+  return {"constant", "channels", "longest_low_carry_bits", "depth_cue", "depth_cue_channels"};
+}
+
+FittedModel fit_model(const std::vector<DatapathConfiguration>& configurations,
+                      const std::vector<double>& values,
+                      const std::vector<std::string_view>& used) {
+  const auto is_used = [&used](std::string_view name) {
+    return std::find(used.begin(), used.end(), name) != used.end();
+  };
+  const auto count = static_cast<Eigen::Index>(values.size());
+  Eigen::MatrixXd features(count, static_cast<Eigen::Index>(used.size()));
+  for (Eigen::Index row = 0; row < count; ++row) {
+    Eigen::Index column = 0;
+    for (const auto& [name, value] :
+         synthesis_features(configurations[static_cast<std::size_t>(row)])) {
+      if (is_used(name)) features(row, column++) = value;
+    }
+  }
+  const Eigen::VectorXd known = Eigen::VectorXd::Map(values.data(), count);
+  FittedModel model;
+  for (Eigen::Index left_out = 0; left_out < count; ++left_out) {
+    Eigen::MatrixXd rest(count - 1, features.cols());
+    rest << features.topRows(left_out), features.bottomRows(count - left_out - 1);
+    const double guess = features.row(left_out).dot(solve(rest, without(known, left_out)));
+    model.relative_error = std::max(model.relative_error, std::abs(guess / known(left_out) - 1));
+  }
+  const Eigen::VectorXd coefficients = solve(features, known);
+  Eigen::Index column = 0;
+  for (const std::string_view name : area_features()) {
+    model.coefficients.push_back(is_used(name) ? coefficients(column++) : 0);
+  }
+  return model;
+}
+
+}  // namespace phongpipe
