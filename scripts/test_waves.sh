@@ -22,20 +22,21 @@ cd "$work"
 "$program" trace sphere --worst -o t.fst >report
 "$program" trace sphere --worst -o t.vcd >/dev/null
 "$program" trace sphere --worst -o t.fst >/dev/null  # its view, not that of the VCD
+"$program" verify sphere --json result.json >/dev/null
 cycle=$(sed -n 's/.*enters .* in cycle //p' report)
-name='phongpipe.rtl.pixel_datapath.channel[0].diffuse.diffuse_series.v[9:-16]'
+name='phongpipe.rtl.pixel_datapath.channel[0].diffuse.diffuse_series.s4_v[9:-16]'
 python3 - "$cycle" >expected <<'PYTHON'
 # "time value": in the middle of the cycle, of the register as the VCD has it.
-import re, sys
+import json, re, sys
 cycle = int(sys.argv[1])
 code, value, time, shown = None, None, 0, None
-period = 7400
+period = round(1000 * json.load(open("result.json"))["clock_ns"])  # ps
 scopes = []
 for line in open("t.vcd"):
     words = line.split()
     if words[0] == "$scope": scopes.append(words[2])
     elif words[0] == "$upscope": scopes.pop()
-    elif words[0] == "$var" and words[4] == "v" and scopes[1:] == ["rtl", "pixel_datapath", "channel[0]", "diffuse", "diffuse_series"]:
+    elif words[0] == "$var" and words[4] == "s4_v" and scopes[1:] == ["rtl", "pixel_datapath", "channel[0]", "diffuse", "diffuse_series"]:
         code = words[3]
     elif line[0] == "#": time = int(line[1:])
     elif line[0] == "b" and words[1] == code and time <= cycle * period: shown = words[0][1:]
