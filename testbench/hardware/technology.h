@@ -49,7 +49,7 @@ std::vector<std::pair<std::string_view, double>> synthesis_features(
 // A sum of features with coefficients.
 struct FittedModel {
   double relative_error = 0;         // largest, leaving one measured design out after the other
-  std::vector<double> coefficients;  // in the order of synthesis_features(); 0: not used; 0: not used
+  std::vector<double> coefficients;  // in the order of synthesis_features(); 0: not used
   double value(const DatapathConfiguration& configuration) const;
 };
 
