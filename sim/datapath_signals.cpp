@@ -191,11 +191,9 @@ class SignalTable {
     const std::string scope = fmt::format("channel[{}].summation", channel);
     const auto c = static_cast<std::size_t>(channel);
     const int width = f_.diffuse_width(), low = low_bits(width);
-    const auto level_complement = [c](const Pixel& p) { return ~p.level[c]; };
-    const auto mask = [](auto value, int bits) {
-      return [value, bits](const Pixel& p) { return value(p) & ((std::int64_t{1} << bits) - 1); };
-    };
-    add(4, scope, "s4_level_complement", width - 1, mask(level_complement, width - 1));
+    add(4, scope, "s4_level_complement", width - 1, [c, width](const Pixel& p) {
+      return ~p.level[c] & ((std::int64_t{1} << (width - 1)) - 1);
+    });
     add(5, scope, "s5_diffuse", width - low, [c, low](const Pixel& p) {
       return p.diffuse[c].v >> low;
     }).is_signed = true;

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <future>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -158,9 +160,14 @@ Netlist::Netlist(const DatapathConfiguration& configuration, const fs::path& sou
   }
   folder_ = name;
   std::string files;
+  int modules = 0;
   for (const fs::path& source : rtl_sources(sources)) {
-    fs::copy_file(source, folder_ / source.filename());
-    if (source.extension() == ".sv") files += " " + source.filename().string();
+    // What is included keeps its name; a module gets one that yosys's script cannot misread.
+    const bool is_module = source.extension() == ".sv";
+    const std::string copy =
+        is_module ? fmt::format("{}.sv", modules++) : source.filename().string();
+    fs::copy_file(source, folder_ / copy);
+    if (is_module) files += " " + copy;
   }
   write_text(folder_ / "harness.v", harness(configuration));
   std::string sets;

@@ -56,6 +56,9 @@ class Follower {
   const std::string& scope() const { return scope_; }
   void add(const std::string& name, std::size_t variable, int width) {
     variables_[name] = variable;
+    for (int stage = 0; stage < kMostStages; ++stage) {
+      if (name == fmt::format("{}.s{}_valid", kDatapath, stage)) valid_[index(stage)] = variable;
+    }
     if (name == fmt::format("{}.valid", kDatapath)) valid_width_ = width;
     const auto known = stages_of_signals().find(name);
     if (known == stages_of_signals().end()) return;
@@ -122,12 +125,11 @@ class Follower {
   static std::size_t index(int stage) { return static_cast<std::size_t>(stage); }
   // Our own traces have a bit for each stage, those of other tools RTL's word.
   bool has_stage(int stage) const {
-    if (variables_.count(fmt::format("{}.s{}_valid", kDatapath, stage)) != 0) return true;
-    return stage < valid_width_;
+    return valid_[index(stage)].has_value() || stage < valid_width_;
   }
   bool is_valid(const std::vector<std::string>& values, int stage) const {
-    const std::string own = fmt::format("{}.s{}_valid", kDatapath, stage);
-    if (variables_.count(own) != 0 || stage >= valid_width_) return bit(values, own);
+    if (const auto& own = valid_[index(stage)]) return values[*own] == "1";
+    if (stage >= valid_width_) return false;
     const int all = number(values, fmt::format("{}.valid", kDatapath), valid_width_);
     return (all >> stage & 1) != 0;
   }
@@ -184,9 +186,10 @@ class Follower {
   std::array<std::vector<Register>, kMostStages> registers_;  // by the stage that they belong to
   std::array<std::optional<std::size_t>, kMostStages> held_{};
   std::deque<std::size_t> queue_;
-  int valid_width_ = 0;  // of RTL's word
-  bool began_ = true;    // the next clock is the first of a record
-  int unknown_ = 0;      // pixels inside that entered before
+  std::array<std::optional<std::size_t>, kMostStages> valid_{};  // variables of the stages' bits
+  int valid_width_ = 0;                                          // of RTL's word
+  bool began_ = true;  // the next clock is the first of a record
+  int unknown_ = 0;    // pixels inside that entered before
   std::vector<TracedPixel> pixels_;
   int clock_ = 0;
 };
