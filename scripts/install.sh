@@ -5,7 +5,7 @@ packages=(
   g++ cmake ninja-build ccache pkg-config git
   verilator yosys iverilog
   libsystemc-dev libcli11-dev libtomlplusplus-dev libeigen3-dev libfmt-dev
-  nlohmann-json3-dev libstb-dev zlib1g-dev libsqlitecpp-dev libmuparser-dev libpugixml-dev
+  nlohmann-json3-dev libpng-dev zlib1g-dev libsqlitecpp-dev libmuparser-dev libpugixml-dev
   nettle-dev libseccomp-dev
   node-d3
   libgtest-dev librapidcheck-dev libbenchmark-dev

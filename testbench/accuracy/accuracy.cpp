@@ -74,8 +74,7 @@ Accuracy measure_triangles(const FrameSetup& frame, const ModelFrame& model,
       exact[c] =
           static_cast<std::uint8_t>(links.exact[c] + 0.5);  // NOLINT(bugprone-incorrect-roundings)
     }
-    const Rgb color = error_color(largest);
-    std::copy(color.begin(), color.end(), whole.error_picture.pixel(links.index));
+    *whole.error_picture.pixel(links.index) = error_level(largest);
   });
   return accuracy;
 }
@@ -89,7 +88,7 @@ Accuracy measure_accuracy(const FrameSetup& frame, const ModelFrame& model,
   if (options.pictures) {
     whole.exact_picture =
         Picture(frame.width, frame.height, frame.configuration.channels, frame.background.data());
-    whole.error_picture = Picture(frame.width, frame.height, 3, kUncoveredColor.data());
+    whole.error_picture = error_map(frame.width, frame.height);
   }
   // Always the same parts, added in the same order, so that sums do not depend on the machine.
   constexpr std::uint32_t kParts = 16;

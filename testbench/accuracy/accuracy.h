@@ -63,7 +63,7 @@ struct Accuracy {
 
   // If pictures are requested.
   Picture exact_picture;  // rounded to 8 bits
-  Picture error_picture;  // the largest error of the channels, in the colours of error_color()
+  Picture error_picture;  // an error_map() of the largest errors of the channels
 };
 
 // Measures all visible pixels of the model's frame.

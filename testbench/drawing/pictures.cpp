@@ -1,21 +1,21 @@
 #include "testbench/drawing/pictures.h"
 
 #include <fmt/format.h>
-#include <stb_image_write.h>
+#include <png.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "model/scene/tool_error.h"
 #include "testbench/system/output_file.h"
 
 namespace phongpipe {
 namespace {
 
-void append(void* context, void* data, int size) {
-  static_cast<std::string*>(context)->append(static_cast<const char*>(data),
-                                             static_cast<std::size_t>(size));
-}
+// Places in the palette of error maps.
+constexpr std::uint8_t kUncoveredLevel = 255;
+constexpr double kLargestLevel = kUncoveredLevel - 1;
 
 std::size_t pixels(int width, int height) {
   return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -73,31 +73,54 @@ Picture picture_of(const std::vector<Color>& colors, int width, int height, int 
   return picture;
 }
 
-Rgb error_color(double error) {
+Rgb Picture::color(std::size_t index) const {
+  const std::uint8_t* const first = bytes.data() + index * static_cast<std::size_t>(channels);
+  if (!palette.empty()) return palette[*first];
+  return channels == 1 ? Rgb{*first, *first, *first} : Rgb{first[0], first[1], first[2]};
+}
+
+Picture error_map(int width, int height) {
   using Stop = std::array<double, 3>;
+  constexpr Rgb kUncovered = {12, 40, 24};
   constexpr std::array<Stop, 5> kStops = {Stop{0, 0, 0}, Stop{40, 40, 160}, Stop{190, 40, 80},
                                           Stop{250, 180, 40}, Stop{255, 255, 255}};
-  const double at = std::min(error / kErrorMapTop, 1.0) * (kStops.size() - 1);
-  const auto stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
-  const double weight = at - static_cast<double>(stop);
-  Rgb color{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double value = kStops[stop][c] * (1 - weight) + kStops[stop + 1][c] * weight;
-    // Not below 0; std::lround costs as much as all the rest.
-    color[c] = static_cast<std::uint8_t>(value + 0.5);  // NOLINT(bugprone-incorrect-roundings)
+  Picture picture(width, height, 1, &kUncoveredLevel);
+  picture.palette.assign(kUncoveredLevel + 1, kUncovered);
+  for (std::size_t level = 0; level < kUncoveredLevel; ++level) {
+    const double at = static_cast<double>(level * (kStops.size() - 1)) / kLargestLevel;
+    const auto stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
+    const double weight = at - static_cast<double>(stop);
+    for (std::size_t c = 0; c < 3; ++c) {
+      picture.palette[level][c] = static_cast<std::uint8_t>(
+          std::lround(kStops[stop][c] * (1 - weight) + kStops[stop + 1][c] * weight));
+    }
   }
-  return color;
+  return picture;
+}
+
+std::uint8_t error_level(double error_lsb) {
+  const double level = std::min(error_lsb / kErrorMapTop, 1.0) * kLargestLevel;
+  // Not below 0; std::lround costs as much as all the rest.
+  return static_cast<std::uint8_t>(level + 0.5);  // NOLINT(bugprone-incorrect-roundings)
 }
 
 std::string png(const Picture& picture) {
-  // Differences to the row above; trying every filter on each row takes longer than compressing.
-  constexpr int kUp = 2;
-  stbi_write_force_png_filter = kUp;
-  std::string bytes;
-  bytes.reserve(picture.bytes.size() / 4);
-  stbi_write_png_to_func(append, &bytes, picture.width, picture.height, picture.channels,
-                         picture.bytes.data(), picture.width * picture.channels);
-  return bytes;
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(picture.width);
+  image.height = static_cast<png_uint_32>(picture.height);
+  image.format = picture.channels == 3 ? PNG_FORMAT_RGB : PNG_FORMAT_GRAY;
+  if (!picture.palette.empty()) image.format = PNG_FORMAT_RGB_COLORMAP;
+  image.colormap_entries = static_cast<png_uint_32>(picture.palette.size());
+  image.flags = PNG_IMAGE_FLAG_FAST;  // larger by a half, in a sixth of the time
+  std::vector<char, LargeAllocator<char>> bytes(PNG_IMAGE_PNG_SIZE_MAX(image));
+  png_alloc_size_t size = bytes.size();
+  constexpr int kAsTheyAre = 0, kRowByRow = 0;
+  if (png_image_write_to_memory(&image, bytes.data(), &size, kAsTheyAre, picture.bytes.data(),
+                                kRowByRow, picture.palette.data()) == 0) {
+    throw ToolError(std::string("libpng said: ") + image.message);
+  }
+  return {bytes.data(), size};
 }
 
 void write_png(const std::filesystem::path& file, const Picture& picture) {

@@ -17,7 +17,8 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 struct Picture {
   int width = 0, height = 0;
-  int channels = 1;                                               // 1 or 3
+  int channels = 1;          // bytes of a pixel, 1 or 3
+  std::vector<Rgb> palette;  // empty, or what a byte stands for
   std::vector<std::uint8_t, LargeAllocator<std::uint8_t>> bytes;  // row by row from the top
 
   Picture() = default;
@@ -26,6 +27,7 @@ struct Picture {
   std::uint8_t* pixel(std::size_t index) {
     return bytes.data() + index * static_cast<std::size_t>(channels);
   }
+  Rgb color(std::size_t index) const;
 };
 
 // The picture in a framebuffer.
@@ -35,11 +37,12 @@ std::vector<Color> in_lsb(const std::vector<std::uint32_t>& colors, int channels
 // The picture of real colours in LSB, rounded; grey if `channels` is 1.
 Picture picture_of(const std::vector<Color>& colors, int width, int height, int channels);
 
-// Colour of an error in LSB: from black at 0 through blue, red and yellow to white at kErrorMapTop
-// and above. Dark green marks pixels that are not covered.
+// An error map with no pixel covered, which is shown in dark green. Pixels are set to
+// error_level(): black for no error, through blue, red and yellow, to white.
+Picture error_map(int width, int height);
+// The place of an error in the palette of error maps; from kErrorMapTop LSB on all are the same.
 constexpr double kErrorMapTop = 4;
-constexpr Rgb kUncoveredColor = {12, 40, 24};
-Rgb error_color(double error);
+std::uint8_t error_level(double error_lsb);
 
 // The bytes of a PNG file.
 std::string png(const Picture& picture);

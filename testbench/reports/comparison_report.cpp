@@ -66,11 +66,10 @@ nlohmann::ordered_json finite_or_null(double value) {
 }
 
 Picture error_picture(const MethodResult& result, const Comparison& comparison) {
-  Picture picture(comparison.width, comparison.height, 3, kUncoveredColor.data());
+  Picture picture = error_map(comparison.width, comparison.height);
   for (std::size_t i = 0; i < result.errors_lsb.size(); ++i) {
-    if (std::isnan(result.errors_lsb[i])) continue;
-    const Rgb color = error_color(static_cast<double>(result.errors_lsb[i]));
-    std::copy(color.begin(), color.end(), picture.pixel(i));
+    const auto error_lsb = static_cast<double>(result.errors_lsb[i]);
+    if (!std::isnan(error_lsb)) *picture.pixel(i) = error_level(error_lsb);
   }
   return picture;
 }

@@ -18,16 +18,14 @@ constexpr int kAcross = 8;  // cases in a row
 // Copies a picture into a square of the sheet, its pixels repeated to fill it.
 void paste(const Picture& picture, int left, int top, Picture& sheet) {
   const int larger = std::max(picture.width, picture.height);
-  const auto channels = static_cast<std::size_t>(picture.channels);
   for (int y = 0; y < kCell; ++y) {
     for (int x = 0; x < kCell; ++x) {
       const int from_x = x * larger / kCell, from_y = y * larger / kCell;
       if (from_x >= picture.width || from_y >= picture.height) continue;
       const int from_pixel = from_y * picture.width + from_x;
       const int to_pixel = (top + y) * sheet.width + left + x;
-      const std::size_t from = static_cast<std::size_t>(from_pixel) * channels;
-      std::uint8_t* const to = sheet.pixel(static_cast<std::size_t>(to_pixel));
-      for (std::size_t c = 0; c < 3; ++c) to[c] = picture.bytes[from + (channels == 3 ? c : 0)];
+      const Rgb color = picture.color(static_cast<std::size_t>(from_pixel));
+      std::copy(color.begin(), color.end(), sheet.pixel(static_cast<std::size_t>(to_pixel)));
     }
   }
 }
