@@ -73,6 +73,10 @@ void simulate_by_clock(FrameContext& context) {
 
 }  // namespace
 
+void stop_simulation() {
+  sc_core::sc_stop();
+}
+
 SimulationResult simulate(const FrameSetup& frame, const PipelineConfiguration& configuration,
                           const SimulationOptions& options) {
   static bool simulated = false;

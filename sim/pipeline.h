@@ -90,4 +90,7 @@ struct SimulationResult : SimulationCounts {
 SimulationResult simulate(const FrameSetup& frame, const PipelineConfiguration& configuration,
                           const SimulationOptions& options);
 
+// Ends the simulation soon; for `observe` and for a ClockedDatapath, which may be called some more.
+void stop_simulation();
+
 }  // namespace phongpipe

@@ -5,27 +5,9 @@
 #include <optional>
 
 #include "sim/pipeline.h"
-#include "testbench/cosim/lockstep.h"
+#include "testbench/cosim/divergence.h"
 
 namespace phongpipe {
-
-// The first pixel at which an implementation differs from the model.
-struct Divergence {
-  std::uint64_t stream_index = 0;  // of the pixel among all shaded pixels
-  std::uint64_t span = 0;          // of the pixel, in the order of pixel_datapath
-  std::uint32_t triangle = 0;      // of the scene, even if it was split
-  std::int64_t cycle = 0;
-  ShadedPixel model, found;
-  bool missing = false;  // the implementation ended before this pixel
-
-  static constexpr auto fields() {
-    using D = Divergence;
-    return std::make_tuple(field("stream_index", &D::stream_index), field("span", &D::span),
-                           field("triangle", &D::triangle), field("cycle", &D::cycle),
-                           field("model", &D::model), field("found", &D::found),
-                           field("missing", &D::missing));
-  }
-};
 
 // Hashes of the stream, of the frame and of the cycles of all pixels, to compare two simulations.
 struct Fingerprint {
@@ -42,12 +24,17 @@ struct Fingerprint {
   }
 };
 
+// An implementation that differs is simulated once more, beside the model, until this many pixels
+// of the stream have differed.
+constexpr std::uint64_t kMismatchesCounted = 100;
+
 // Result of simulating one implementation in a child process.
 struct ImplementationResult {
   SimulationCounts counts;
   Fingerprint fingerprint;
   double processor_seconds = 0;  // CPU time of the simulation
-  // Numbers of pixels that differ from the model, in the stream and in the final frame.
+  // Numbers of pixels that differ from the model: in the stream, at most kMismatchesCounted; in the
+  // final frame, 0 if the count of the stream stopped there.
   std::uint64_t stream_mismatches = 0, frame_mismatches = 0;
   std::optional<Divergence> first_divergence;
   // The register at which RTL differs first, which is the cause of the pixel above.
@@ -63,6 +50,7 @@ struct ImplementationResult {
                            field("signal_divergence", &R::signal_divergence));
   }
 
+  bool stopped() const { return stream_mismatches == kMismatchesCounted; }
   bool agrees() const {
     return stream_mismatches == 0 && frame_mismatches == 0 && counts.failure.empty();
   }

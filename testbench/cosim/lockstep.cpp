@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <systemc>
 
+#include "sim/datapath_driver.h"
 #include "testbench/system/process.h"
 #include "testbench/system/record_json.h"
 
@@ -110,6 +110,10 @@ std::optional<SignalDivergence> Lockstep::found() const {
   return earliest->second;
 }
 
+bool Lockstep::complete() const {
+  return !differences_.empty() && (!stream_index_ || delivered_ > *stream_index_);
+}
+
 DatapathOutputs Lockstep::clock(const DatapathInputs& inputs) {
   const DatapathOutputs rtl = rtl_.clock(inputs);  // compares registers before the edge
   const DatapathOutputs model = model_.clock(inputs);
@@ -119,26 +123,92 @@ DatapathOutputs Lockstep::clock(const DatapathInputs& inputs) {
     table_settles_ = 2;
   }
   if (inputs.span != nullptr && rtl.span_ready) begin_span(inputs.span->row.length);
-  const bool complete = !stream_index_ || delivered_ > *stream_index_;
-  if (complete && !differences_.empty()) sc_core::sc_stop();
   ++cycle_;
   return rtl;
 }
+
+namespace {
+
+// Ends the simulation of a frame when enough is known.
+class EndingLockstep : public Lockstep {
+ public:
+  using Lockstep::Lockstep;
+  DatapathOutputs clock(const DatapathInputs& inputs) override {
+    const DatapathOutputs outputs = Lockstep::clock(inputs);
+    if (complete()) stop_simulation();
+    return outputs;
+  }
+};
+
+// The span with a number, in the order of pixel_datapath, and the place of its first pixel in the
+// stream.
+std::pair<Span, std::uint64_t> span_of(const FrameSetup& frame, std::uint64_t number) {
+  SpanStream stream(frame);
+  stream.next();
+  std::uint64_t begin = 0;
+  for (std::uint64_t i = 0; i < number; ++i) {
+    begin += static_cast<std::uint64_t>(stream.span().row.length);
+    stream.next();
+  }
+  return {stream.span(), begin};
+}
+
+// Replays the pixel's span alone, after a reset. Nothing is found if the cause lies before it.
+std::optional<SignalDivergence> find_in_span(const FrameSetup& frame, RtlDatapath& rtl,
+                                             const Divergence& pixel) {
+  const auto [span, begin] = span_of(frame, pixel.span);
+  const std::uint64_t index = pixel.stream_index - begin;
+  Lockstep lockstep(frame.configuration, frame.cue_color, rtl, index);
+  DatapathDriver driver(frame, lockstep);
+  std::int64_t taken_cycle = -1, delivered_cycle = -1;
+  std::uint64_t delivered = 0;
+  constexpr std::int64_t kPatience = 1000;
+  for (std::int64_t cycle = 0; delivered_cycle < 0; ++cycle) {
+    const auto outcome = driver.clock(taken_cycle < 0 ? &span : nullptr, true);
+    if (outcome.span_taken) taken_cycle = cycle;
+    if (outcome.pixel_taken && delivered++ == index) delivered_cycle = cycle;
+    const bool empty = taken_cycle >= 0 && driver.pixels_in_flight() == 0;
+    if (empty || !driver.misbehaviour(kPatience).empty()) break;
+  }
+  std::optional<SignalDivergence> found = lockstep.found();
+  if (delivered_cycle < 0 || !found || !lockstep.complete() || found->cycle < taken_cycle)
+    return {};
+  found->cycle += pixel.cycle - delivered_cycle;
+  return found;
+}
+
+// Whether pixels leave the datapath in the frame as they do in a span alone.
+bool output_never_waits(const PipelineConfiguration& pipeline, const SimulationOptions& options) {
+  return options.stall_percent == 0 && pipeline.framebuffer_write_cycles == 1 &&
+         pipeline.framebuffer_test_cycles == 1 && pipeline.framebuffer_add_cycles == 1;
+}
+
+}  // namespace
 
 std::optional<SignalDivergence> find_signal_divergence(
     const FrameSetup& frame, const PipelineConfiguration& pipeline,
     const SimulationOptions& simulation,
     const std::function<std::unique_ptr<RtlDatapath>()>& make_rtl,
-    std::optional<std::uint64_t> stream_index) {
+    const std::optional<Divergence>& pixel) {
   Child child([&] {
-    const std::unique_ptr<RtlDatapath> rtl = make_rtl();
-    Lockstep lockstep(frame.configuration, frame.cue_color, *rtl, stream_index);
-    SimulationOptions options = simulation;
-    options.detail = Detail::cycle;  // its clocks are the frame's cycles
-    options.datapath = &lockstep;
-    options.observe = [](const ShadedPixel*, const std::int64_t*, std::size_t) {};
-    simulate(frame, pipeline, options);
-    return nlohmann::json(lockstep.found()).dump();
+    std::optional<SignalDivergence> found;
+    if (pixel && !pixel->missing && output_never_waits(pipeline, simulation)) {
+      const std::unique_ptr<RtlDatapath> rtl = make_rtl();
+      found = find_in_span(frame, *rtl, *pixel);
+    }
+    if (!found) {
+      const std::unique_ptr<RtlDatapath> rtl = make_rtl();
+      std::optional<std::uint64_t> stream_index;
+      if (pixel) stream_index = pixel->stream_index;
+      EndingLockstep lockstep(frame.configuration, frame.cue_color, *rtl, stream_index);
+      SimulationOptions options = simulation;
+      options.detail = Detail::cycle;  // its clocks are the frame's cycles
+      options.datapath = &lockstep;
+      options.observe = [](const ShadedPixel*, const std::int64_t*, std::size_t) {};
+      simulate(frame, pipeline, options);
+      found = lockstep.found();
+    }
+    return nlohmann::json(found).dump();
   });
   return nlohmann::json::parse(child.get()).get<std::optional<SignalDivergence>>();
 }

@@ -10,33 +10,14 @@
 #include <string>
 #include <vector>
 
-#include "model/shading/fields.h"
 #include "sim/datapath_registers.h"
 #include "sim/pipeline.h"
+#include "testbench/cosim/divergence.h"
 #include "testbench/rtl/rtl_signals.h"
 
 namespace phongpipe {
 
-// A register or an output that differs.
-struct SignalDivergence {
-  std::string block;   // "pixel_datapath.specular.rom"
-  std::string signal;  // "address", or "table_words[7]"
-  int width = 1;       // bits
-  std::int64_t cycle = 0;
-  std::int64_t model = 0, other = 0;  // values, with their sign if they have one
-
-  static constexpr auto fields() {
-    using S = SignalDivergence;
-    return std::make_tuple(field("block", &S::block), field("signal", &S::signal),
-                           field("width", &S::width), field("cycle", &S::cycle),
-                           field("model", &S::model), field("other", &S::other));
-  }
-  std::string name() const { return block + "." + signal; }
-};
-// A value in hexadecimal, with the digits of `width` bits, such as 0x1f3.
-std::string hex_text(std::int64_t value, int width);
-
-// Stands in for the RTL in a simulation by the clock, which it ends when it has found what differs.
+// Stands in for the RTL where a simulation runs clock by clock.
 class Lockstep : public ClockedDatapath {
  public:
   // `rtl`: built with signals. `stream_index`: the first pixel that differs, if known; what
@@ -47,6 +28,8 @@ class Lockstep : public ClockedDatapath {
   void reset() override;
   DatapathOutputs clock(const DatapathInputs& inputs) override;
 
+  // Whether enough is known: something differs, and the pixel that does has been delivered.
+  bool complete() const;
   // The earliest difference; of several in one clock, the one in the earliest stage.
   std::optional<SignalDivergence> found() const;
 
@@ -79,11 +62,14 @@ class Lockstep : public ClockedDatapath {
   std::map<std::uint64_t, SignalDivergence> differences_;
 };
 
-// Simulates the frame in lockstep with the model, in a child process. `make_rtl`: creates the RTL,
-// which was built with signals. `options`: those of the simulation that differed.
+// Simulates in lockstep with the model, in a child process: if `pixel` is known, its span alone,
+// and the frame from its beginning where the cause lies before this span. `make_rtl`: creates the
+// RTL, which was built with signals. `options`: those of the simulation that differed.
+//
+// The cycle is the frame's. A register that waits in the frame may differ some cycles earlier.
 std::optional<SignalDivergence> find_signal_divergence(
     const FrameSetup& frame, const PipelineConfiguration& pipeline,
     const SimulationOptions& options, const std::function<std::unique_ptr<RtlDatapath>()>& make_rtl,
-    std::optional<std::uint64_t> stream_index);
+    const std::optional<Divergence>& pixel);
 
 }  // namespace phongpipe

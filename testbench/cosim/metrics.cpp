@@ -85,12 +85,12 @@ std::vector<Metric> all_metrics() {
        [](const Result& r) { return count(r.accuracy.visible_pixels); }},
 
       {"rtl_mismatches", "/mismatches/model_rtl", "", kLess,
-       "pixels shaded by the RTL that are not the model's",
+       "pixels shaded by the RTL that are not the model's; the first only",
        [](const Result& r) {
          return of_rtl(r, [](const ImplementationResult& rtl) { return rtl.stream_mismatches; });
        }},
       {"systemc_mismatches", "/mismatches/model_systemc", "", kLess,
-       "pixels shaded in SystemC that are not the model's",
+       "pixels shaded in SystemC that are not the model's; the first only",
        [](const Result& r) { return count(r.systemc.stream_mismatches); }},
       {"rtl_frame_mismatches", "/mismatches/frame_rtl", "", kLess,
        "pixels of the final frame with the RTL that are not the model's",
@@ -252,6 +252,13 @@ std::string metric_text(const MetricValue& value) {
 
 std::string count_text(std::uint64_t count) {
   return metric_text(static_cast<std::int64_t>(count));
+}
+
+std::string mismatches_text(const ImplementationResult& found, std::uint64_t pixels) {
+  const std::string of_stream =
+      fmt::format("{} of {} pixels", count_text(found.stream_mismatches), count_text(pixels));
+  if (found.stopped()) return of_stream + ", and no more were counted";
+  return fmt::format("{}, {} of the final frame", of_stream, count_text(found.frame_mismatches));
 }
 
 }  // namespace phongpipe

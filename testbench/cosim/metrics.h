@@ -35,5 +35,7 @@ std::optional<double> number_of(const MetricValue& value);
 // The value for people: whole numbers with separators, others with 4 digits, - for no value.
 std::string metric_text(const MetricValue& value);
 std::string count_text(std::uint64_t count);  // 1,234,567
+// Which pixels differ: "3 of 1,000 pixels, 2 of the final frame". `pixels`: of the stream.
+std::string mismatches_text(const ImplementationResult& found, std::uint64_t pixels);
 
 }  // namespace phongpipe

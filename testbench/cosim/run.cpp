@@ -89,11 +89,9 @@ std::string without_indices(const std::string& name) {
   return result;
 }
 
-Failure failure_of(const char* name, const ImplementationResult& found) {
-  std::string message = fmt::format(
-      "{} differs from the model in {} pixels of the stream and {} of "
-      "the frame",
-      name, found.stream_mismatches, found.frame_mismatches);
+Failure failure_of(const char* name, const ImplementationResult& found, std::uint64_t pixels) {
+  std::string message =
+      fmt::format("{} differs from the model in {}", name, mismatches_text(found, pixels));
   if (!found.counts.failure.empty()) message += "; " + found.counts.failure;
   if (found.first_divergence) {
     const Divergence& d = *found.first_divergence;
@@ -119,10 +117,10 @@ Failure failure_of(const char* name, const ImplementationResult& found) {
 
 Failure failure_of(const VerificationResult& r) {
   if (const ImplementationResult* const found = r.diverging()) {
-    return failure_of(found == &r.systemc ? "SystemC" : "RTL", *found);
+    return failure_of(found == &r.systemc ? "SystemC" : "RTL", *found, r.pixels);
   }
-  if (!r.systemc.agrees()) return failure_of("SystemC", r.systemc);
-  if (r.rtl && !r.rtl->agrees()) return failure_of("RTL", *r.rtl);
+  if (!r.systemc.agrees()) return failure_of("SystemC", r.systemc, r.pixels);
+  if (r.rtl && !r.rtl->agrees()) return failure_of("RTL", *r.rtl, r.pixels);
   if (!r.same_cycles()) {
     return {"cycles", fmt::format("the frame takes {} cycles more with the RTL than in SystemC",
                                   r.cycle_difference())};

@@ -58,6 +58,7 @@ void StreamChecker::record(const ShadedPixel& model, const ShadedPixel& found, s
 }
 
 void StreamChecker::observe(const ShadedPixel& pixel, std::int64_t cycle) {
+  if (enough()) return;
   ShadedPixel expected;
   const bool more = next(expected);
   if (!more || pixel != expected) record(expected, pixel, cycle, false);
@@ -65,7 +66,9 @@ void StreamChecker::observe(const ShadedPixel& pixel, std::int64_t cycle) {
 }
 
 void StreamChecker::finish(std::int64_t cycle) {
-  for (ShadedPixel expected; next(expected); ++stream_index_) record(expected, {}, cycle, true);
+  for (ShadedPixel expected; !enough() && next(expected); ++stream_index_) {
+    record(expected, {}, cycle, true);
+  }
 }
 
 }  // namespace phongpipe

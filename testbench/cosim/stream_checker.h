@@ -46,7 +46,7 @@ inline bool same_stream(const Fingerprint& a, const Fingerprint& b) {
 std::uint64_t count_frame_mismatches(const Framebuffer& model, int model_channels,
                                      const Framebuffer& found, int channels);
 
-// Runs the model beside a stream and finds where they differ.
+// Runs the model beside a stream and finds where they differ, until kMismatchesCounted pixels have.
 class StreamChecker {
  public:
   explicit StreamChecker(const FrameSetup& frame) : model_(frame) {}
@@ -57,6 +57,7 @@ class StreamChecker {
   void finish(std::int64_t cycle);
 
   std::uint64_t mismatches() const { return mismatches_; }
+  bool enough() const { return mismatches_ == kMismatchesCounted; }
   const std::optional<Divergence>& first() const { return first_; }
 
  private:

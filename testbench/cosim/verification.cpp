@@ -6,6 +6,7 @@
 
 #include "model/scene/input_error.h"
 #include "model/scene/tool_error.h"
+#include "testbench/cosim/lockstep.h"
 #include "testbench/cosim/metrics.h"
 #include "testbench/cosim/stream_checker.h"
 #include "testbench/rtl/rtl_library.h"
@@ -60,22 +61,26 @@ class Implementation {
   // streams: there only the pictures are compared.
   void locate_mismatches(const FrameSetup& model_frame, const Framebuffer& model,
                          ImplementationResult& result) const {
+    const bool same_hardware = &model_frame == &frame_;
     Child child([&] {
       StreamChecker checker(model_frame);
       SimulationOptions options = options_;
-      options.observe = [&checker](const ShadedPixel* pixels, const std::int64_t* cycles,
-                                   std::size_t count) {
+      options.observe = [&checker, same_hardware](const ShadedPixel* pixels,
+                                                  const std::int64_t* cycles, std::size_t count) {
         for (std::size_t i = 0; i < count; ++i) checker.observe(pixels[i], cycles[i]);
+        if (same_hardware && checker.enough()) stop_simulation();
       };
       const SimulationResult simulated = simulate_with(options);
-      if (&model_frame == &frame_) {
+      if (same_hardware) {
         checker.finish(simulated.datapath_cycles);
         result.stream_mismatches = checker.mismatches();
         result.first_divergence = checker.first();
       }
-      result.frame_mismatches =
-          count_frame_mismatches(model, model_frame.configuration.channels, simulated.framebuffer,
-                                 frame_.configuration.channels);
+      if (!result.stopped()) {
+        result.frame_mismatches =
+            count_frame_mismatches(model, model_frame.configuration.channels, simulated.framebuffer,
+                                   frame_.configuration.channels);
+      }
       return to_bytes(result);
     });
     result = from_bytes<ImplementationResult>(child.get());
@@ -93,11 +98,10 @@ class Implementation {
       RtlBuildOptions build = *rtl_build_;
       build.build = RtlBuild::signals;
       const RtlLibrary with_signals(frame_.configuration, build);
-      std::optional<std::uint64_t> index;
-      if (result.first_divergence) index = result.first_divergence->stream_index;
       result.signal_divergence = find_signal_divergence(
           frame_, pipeline_, options_,
-          [&] { return std::make_unique<RtlDatapath>(with_signals, frame_.cue_color); }, index);
+          [&] { return std::make_unique<RtlDatapath>(with_signals, frame_.cue_color); },
+          result.first_divergence);
     } catch (const ToolError&) {
       // The pixel is known all the same.
     }

@@ -88,11 +88,8 @@ std::pair<std::string_view, double> largest_link(const Accuracy& a) {
 void report_implementation(Page& page, const char* name, const ImplementationResult& found,
                            const VerificationResult& r) {
   if (found.agrees()) return;
-  page.line("differs", page.toned(Tone::bad, fmt::format("{} ≠ model: {} of {} pixels, {} of the "
-                                                         "final frame",
-                                                         name, count_text(found.stream_mismatches),
-                                                         count_text(r.pixels),
-                                                         count_text(found.frame_mismatches))));
+  page.line("differs", page.toned(Tone::bad, fmt::format("{} ≠ model: {}", name,
+                                                         mismatches_text(found, r.pixels))));
   if (!found.counts.failure.empty()) page.line("", page.toned(Tone::bad, found.counts.failure));
   if (!found.first_divergence) return;
   const Divergence& d = *found.first_divergence;

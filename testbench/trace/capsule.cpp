@@ -164,10 +164,14 @@ Capsule read_capsule(const std::filesystem::path& file, bool anyway) {
   capsule.scene = parse_scene(root.text("scene"), file.string() + " (its scene)");
   root.finish();
   capsule.scene.source = capsule.name;
-  if (arithmetic != kArithmeticVersion && !anyway) {
+  const bool same_version =
+      capsule.version == PHONGPIPE_VERSION && arithmetic == kArithmeticVersion;
+  if (!same_version && !anyway) {
     throw InputError(fmt::format(
-        "{}: written by a phongpipe with other arithmetic ({}); --anyway replays it with this one",
-        printable(file.string()), printable(capsule.version)));
+        "{}: written by another version of phongpipe ({}, arithmetic {}); --anyway replays it with "
+        "this one ({}, arithmetic {})",
+        printable(file.string()), printable(capsule.version), arithmetic, PHONGPIPE_VERSION,
+        kArithmeticVersion));
   }
   return capsule;
 }

@@ -51,8 +51,8 @@ struct WaveReader {
   using Declare = std::function<void(const std::vector<WaveVariable>& variables)>;
   // Called for every change, in the order of time. `index`: of the variable.
   using Visit = std::function<void(std::uint64_t ps, std::size_t index, const std::string& value)>;
-  // Reads a file, whatever its name. A VCD that was cut is read as far as it goes. Throws
-  // InputError if it is no waveform.
+  // Reads a file, whatever its name. One that was cut is read as far as it goes. Throws InputError
+  // if it is no waveform.
   static WaveReader read(const std::filesystem::path& file, const Declare& declare,
                          const Visit& visit);
 };

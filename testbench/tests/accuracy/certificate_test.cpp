@@ -19,7 +19,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 1986;
+constexpr unsigned kCertificateSeed = 1986;
 
 template <typename T>
 T one_of(Random& random, std::initializer_list<T> values) {
@@ -150,8 +150,8 @@ TEST_P(HostileTriangles, StayWithinWhatIsProved) {
       load_hardware(hardware_name, {fmt::format("max_error={}", limit), "channels=1"});
   Worst worst;
   for (int i = 0; i < frames; ++i) {
-    SCOPED_TRACE(fmt::format("seed {}, frame {}", kSeed, i));
-    Random random(kSeed + static_cast<unsigned>(i));
+    SCOPED_TRACE(fmt::format("seed {}, frame {}", kCertificateSeed, i));
+    Random random(kCertificateSeed + static_cast<unsigned>(i));
     const Scene scene = hostile_scene(random, hardware.formats.rom_layout == RomLayout::plain);
     const Geometry geometry = hostile_geometry(random, scene, kTriangles);
     FrameConfiguration configuration{

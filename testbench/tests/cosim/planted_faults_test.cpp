@@ -76,11 +76,11 @@ class PlantedFaults : public testing::Test {
     });
     return nlohmann::json::parse(child.get()).get<std::optional<Divergence>>();
   }
-  std::optional<SignalDivergence> first_signal(const Fault& fault, std::uint64_t stream_index) {
+  std::optional<SignalDivergence> first_signal(const Fault& fault, const Divergence& pixel) {
     return find_signal_divergence(
         frame_.setup, hardware_.pipeline, limited(),
         [&] { return std::make_unique<FaultyRtl>(library_, frame_.setup.cue_color, fault); },
-        stream_index);
+        pixel);
   }
   static SimulationOptions limited() {
     SimulationOptions options;
@@ -98,7 +98,7 @@ class PlantedFaults : public testing::Test {
       const auto pixel = first_pixel(fault);
       if (!pixel) return;
       ++shown;
-      const auto found = first_signal(fault, pixel->stream_index);
+      const auto found = first_signal(fault, *pixel);
       const bool right = found && stage_of(*found) == stage;
       named += right ? 1 : 0;
       if (right) return;
@@ -157,6 +157,32 @@ class InGrey : public PlantedFaults {
 };
 TEST_F(InGrey, AreNamedWhereTheyWerePlanted) {
   plant_everywhere();
+}
+
+// A span that is replayed alone shows the register that the whole frame shows, in the frame's
+// cycle. Only a difference in the span before, which the frame shows too, comes earlier there.
+TEST_F(InGrey, ASpanAloneShowsTheSame) {
+  const RtlDatapath rtl(library_, frame_.setup.cue_color);
+  const RtlSignals inside(rtl);
+  int compared = 0, same_cycle = 0;
+  for (const DatapathSignal& signal : signals_) {
+    if (signal.stage < 5) continue;  // registers that wait for the span before differ earlier, too
+    const RtlSignalView& view = RtlRegister::find(inside, signal)->view();
+    const Fault fault = {view.scope, view.name, 0, signal.rtl_lsb + signal.width / 2, true};
+    const auto pixel = first_pixel(fault);
+    if (!pixel || pixel->missing) continue;
+    Divergence not_alone = *pixel;
+    not_alone.missing = true;
+    const auto alone = first_signal(fault, *pixel), frame = first_signal(fault, not_alone);
+    ASSERT_TRUE(alone && frame) << signal.full_name();
+    EXPECT_EQ(alone->name(), frame->name());
+    EXPECT_GE(alone->cycle, frame->cycle) << alone->name();
+    EXPECT_LE(alone->cycle, pixel->cycle) << alone->name();
+    ++compared;
+    same_cycle += alone->cycle == frame->cycle ? 1 : 0;
+  }
+  EXPECT_GT(compared, 10);
+  EXPECT_GT(same_cycle, compared * 3 / 4);
 }
 
 // With words in two tables.

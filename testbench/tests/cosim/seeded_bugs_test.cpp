@@ -90,6 +90,18 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
   EXPECT_NE(report.find("FAILED"), std::string::npos);
 }
 
+TEST_F(SeededBug, CountingEndsAfterTheFirstPixels) {
+  seed("pixel_datapath.sv", "highlight[5:2], s1_highlight", "highlight[5:2], !s1_highlight");
+  const VerificationResult v = run();
+  EXPECT_FALSE(v.passed());
+  EXPECT_EQ(v.rtl->stream_mismatches, kMismatchesCounted);
+  EXPECT_EQ(v.rtl->frame_mismatches, 0U) << "the frame is not complete";
+  ASSERT_TRUE(v.rtl->first_divergence.has_value());
+  const std::string report = report_text(v, {});
+  EXPECT_NE(report.find("RTL ≠ model: 100 of"), std::string::npos) << report;
+  EXPECT_NE(report.find("and no more were counted"), std::string::npos) << report;
+}
+
 TEST_F(SeededBug, LostPixelsDoNotHangTheHarness) {
   seed("pixel_datapath.sv", "span_length == 2 : remaining == 3;",
        "span_length == 2 : remaining == 3 || remaining == 7;");

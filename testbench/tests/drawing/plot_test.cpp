@@ -11,6 +11,7 @@
 
 #include "testbench/drawing/plot_axis.h"
 #include "testbench/drawing/plot_labels.h"
+#include "testbench/tests/occurrences.h"
 
 namespace phongpipe {
 namespace {
@@ -42,12 +43,6 @@ std::string fault(const std::string& text) {
     i = end;
   }
   return open.empty() ? "" : "open " + open.back();
-}
-
-std::size_t occurrences(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
 }
 
 void expect_sound(const std::string& text) {

@@ -4,16 +4,10 @@
 
 #include "model/files/scene_file.h"
 #include "testbench/methods/comparison.h"
+#include "testbench/tests/methods/result_of.h"
 
 namespace phongpipe {
 namespace {
-
-const MethodResult& result_of(const Comparison& comparison, std::string_view name) {
-  for (const MethodResult& result : comparison.methods) {
-    if (result.name == name) return result;
-  }
-  throw std::logic_error("no method " + std::string(name));
-}
 
 class CoarseMesh : public ::testing::TestWithParam<const char*> {
  protected:

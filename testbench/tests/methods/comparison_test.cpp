@@ -8,16 +8,10 @@
 #include "testbench/methods/curves.h"
 #include "testbench/methods/operation_time.h"
 #include "testbench/reports/comparison_report.h"
+#include "testbench/tests/methods/result_of.h"
 
 namespace phongpipe {
 namespace {
-
-const MethodResult& result_of(const Comparison& comparison, const std::string& name) {
-  for (const MethodResult& result : comparison.methods) {
-    if (result.name == name) return result;
-  }
-  throw std::logic_error("no method " + name);
-}
 
 Comparison compare_scene(const std::string& name) {
   return compare(load_scene(std::string(PHONGPIPE_SCENES) + "/" + name + ".toml"),

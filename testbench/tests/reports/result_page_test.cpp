@@ -8,6 +8,7 @@
 #include <random>
 
 #include "testbench/hardware/hardware.h"
+#include "testbench/tests/occurrences.h"
 
 namespace phongpipe {
 namespace {
@@ -19,12 +20,6 @@ std::string between(const std::string& text, const std::string& begin, const std
 
 nlohmann::json data_of(const std::string& page) {
   return nlohmann::json::parse(between(page, "id=\"data\">", "</script>"));
-}
-
-std::size_t occurrences(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
 }
 
 PageContent small_page() {

@@ -17,7 +17,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kFirstSeed = 83;
+constexpr unsigned kDatapathBlocksFirstSeed = 83;
 constexpr unsigned kSeeds = 20;
 
 struct Elaborated {
@@ -61,7 +61,8 @@ void expect_blocks(const Elaborated& e, const FrameSetup& frame) {
 class DatapathBlocksOf : public testing::TestWithParam<Detail> {
  protected:
   void for_each_scene(Effects effects, const std::function<void(const FrameSetup&)>& check) const {
-    for (unsigned seed = kFirstSeed; seed < kFirstSeed + kSeeds; ++seed) {
+    for (unsigned seed = kDatapathBlocksFirstSeed; seed < kDatapathBlocksFirstSeed + kSeeds;
+         ++seed) {
       Random random(seed);
       const RandomEffects e = random_effects(random);
       SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));

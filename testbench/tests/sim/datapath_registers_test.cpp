@@ -14,11 +14,12 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 43;
+constexpr unsigned kDatapathRegistersSeed = 43;
 
 class DatapathRegistersTest : public testing::Test {
  protected:
-  DatapathRegistersTest() : random_(kSeed), pipeline_(configuration_), values_(configuration_) {
+  DatapathRegistersTest()
+      : random_(kDatapathRegistersSeed), pipeline_(configuration_), values_(configuration_) {
     table_.roms.emplace_back(configuration_, 0.5, 20);
     values_.load_table(table_);
     for (int i = 0; i < configuration_.rom_words(); ++i) clock(nullptr, false, i);
@@ -148,7 +149,7 @@ TEST_F(DatapathRegistersTest, ResetInMidRunDropsPixelsAndKeepsTheTable) {
 }
 
 TEST(DatapathDriver, LoadsATableOnlyWhenEmptyAndOneWordAClock) {
-  Random random(kSeed);
+  Random random(kDatapathRegistersSeed);
   const Scene scene = lit_scene(64, 64);
   FrameConfiguration configuration;
   configuration.rom_address_bits = 6;

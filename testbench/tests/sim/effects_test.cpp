@@ -14,7 +14,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kFirstSeed = 73;
+constexpr unsigned kEffectsFirstSeed = 73;
 constexpr unsigned kModelSeeds = 300;
 constexpr unsigned kSimulatedSeeds = 25;  // each of its simulations is a process
 constexpr int kDepthBits = 24;
@@ -57,7 +57,7 @@ class Picture : public testing::TestWithParam<Account> {
 
   void for_each_scene(const std::function<void(Random&, RandomEffects)>& check,
                       bool grey = false) const {
-    for (unsigned seed = kFirstSeed; seed < kFirstSeed + GetParam().seeds; ++seed) {
+    for (unsigned seed = kEffectsFirstSeed; seed < kEffectsFirstSeed + GetParam().seeds; ++seed) {
       Random random(seed);
       const RandomEffects effects = random_effects(random, grey);
       SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(effects));

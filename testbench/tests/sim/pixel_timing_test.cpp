@@ -13,7 +13,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 47;
+constexpr unsigned kPixelTimingSeed = 47;
 
 struct Arrival {
   int length;
@@ -90,8 +90,8 @@ void expect_same_times(const std::vector<Arrival>& arrivals, int depth) {
 }
 
 TEST(PixelTiming, IsThatOfEveryClock) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kPixelTimingSeed);
+  Random random(kPixelTimingSeed);
   for (int i = 0; i < 500; ++i) {
     std::vector<Arrival> arrivals;
     const int spans = random.integer(1, 30), longest = random.integer(1, 20);

@@ -14,7 +14,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 53;
+constexpr unsigned kQueueSeed = 53;
 constexpr int kScenarios = 60, kItems = 80;
 
 struct Scenario {
@@ -22,14 +22,14 @@ struct Scenario {
   std::vector<Cycle> making, using_up;  // cycles from one item to the next, at least 1
 };
 
-struct Times {
+struct QueueTimes {
   std::vector<Cycle> written, read;
   std::vector<int> items;  // as they were read
 };
 
 // A counter and two flags that are looked at before the clock's edge.
-Times by_hand(const Scenario& s) {
-  Times times;
+QueueTimes by_hand(const Scenario& s) {
+  QueueTimes times;
   Cycle may_write = 0, may_read = 0;
   for (Cycle cycle = 0; times.read.size() < s.using_up.size(); ++cycle) {
     const std::size_t waiting = times.written.size() - times.read.size();
@@ -56,7 +56,7 @@ class AheadOfTheClock : public sc_core::sc_module {
     SC_THREAD(consume);
   }
   SC_HAS_PROCESS(AheadOfTheClock);
-  Times times;
+  QueueTimes times;
 
  private:
   void produce() {
@@ -105,7 +105,7 @@ class WithTheClock : public sc_core::sc_module {
     dont_initialize();
   }
   SC_HAS_PROCESS(WithTheClock);
-  Times times;
+  QueueTimes times;
 
  private:
   void produce() {
@@ -130,19 +130,19 @@ class WithTheClock : public sc_core::sc_module {
   Cycle producer_cycle_ = 0, consumer_cycle_ = 0;
 };
 
-void expect_times(const Times& times, const Times& expected, const std::string& which) {
+void expect_times(const QueueTimes& times, const QueueTimes& expected, const std::string& which) {
   EXPECT_EQ(times.written, expected.written) << which;
   EXPECT_EQ(times.read, expected.read) << which;
   EXPECT_EQ(times.items, expected.items) << which;
 }
 
 TEST(Queues, KeepTheTimeOfARegisteredQueue) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kQueueSeed);
+  Random random(kQueueSeed);
   const auto pick = [&random](int low, int high) { return random.integer(low, high); };
   sc_core::sc_clock clk("clk", sc_core::sc_time(1, sc_core::SC_NS), 0.5,
                         sc_core::sc_time(1, sc_core::SC_NS));
-  std::vector<Times> expected;
+  std::vector<QueueTimes> expected;
   std::vector<std::unique_ptr<AheadOfTheClock>> ahead;
   std::vector<std::unique_ptr<WithTheClock>> clocked;
   for (int i = 0; i < kScenarios; ++i) {
@@ -168,7 +168,7 @@ TEST(Queues, KeepTheTimeOfARegisteredQueue) {
 // A queue of one place moves an item every other clock, as both its flags are registered: what the
 // account by hand has to say of itself.
 TEST(Queues, OfOnePlaceMoveAnItemEveryOtherClock) {
-  const Times times = by_hand({1, std::vector<Cycle>(10, 1), std::vector<Cycle>(10, 1)});
+  const QueueTimes times = by_hand({1, std::vector<Cycle>(10, 1), std::vector<Cycle>(10, 1)});
   for (std::size_t i = 0; i < 10; ++i) {
     EXPECT_EQ(times.written[i], 2 * static_cast<Cycle>(i));
     EXPECT_EQ(times.read[i], 2 * static_cast<Cycle>(i) + 1);

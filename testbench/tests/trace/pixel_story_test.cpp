@@ -19,7 +19,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr std::uint64_t kSeed = 20;
+constexpr std::uint64_t kPixelStorySeed = 20;
 
 struct Shaded {
   Hardware hardware;
@@ -62,11 +62,11 @@ std::unique_ptr<const Shaded> shade(const RunRequest& run) {
 // Calls visit(shaded, pixel) for `count` random pixels, at most `of_each` of a random run.
 template <typename Visit>
 void for_each_random_pixel(std::size_t count, std::size_t of_each, Visit visit) {
-  Random random(kSeed);
+  Random random(kPixelStorySeed);
   std::uint64_t refused = 0;
   for (std::uint64_t run = 0; count > 0; ++run) {
-    SCOPED_TRACE(fmt::format("run {} of seed {}", run, kSeed));
-    const auto shaded = shade(random_run(kSeed, run));
+    SCOPED_TRACE(fmt::format("run {} of seed {}", run, kPixelStorySeed));
+    const auto shaded = shade(random_run(kPixelStorySeed, run));
     if (!shaded) {
       ASSERT_LT(++refused, 10 + run / 2) << "most hardware is legal";
       continue;

@@ -288,7 +288,7 @@ TEST_F(Traces, OfOtherToolsAreComparedByTheirNames) {
 
 TEST_F(Traces, FilesThatWereCutAreReadAsFarAsTheyGo) {
   record(pixel(30, 31), "a.vcd");
-  record(pixel(30, 31), "a.fst");
+  record(whole_frame(), "a.fst");
   const std::string vcd = read_whole_file(folder_ / "a.vcd");
   write_text(folder_ / "cut.vcd", vcd.substr(0, vcd.size() * 2 / 3));
   const TraceDiff diff = diff_traces(folder_ / "a.vcd", folder_ / "cut.vcd");
@@ -297,12 +297,18 @@ TEST_F(Traces, FilesThatWereCutAreReadAsFarAsTheyGo) {
   EXPECT_FALSE(diff.b_complete);
   EXPECT_LT(diff.comparisons.front().b_pixels, diff.comparisons.front().a_pixels);
   const std::string fst = read_whole_file(folder_ / "a.fst");
-  write_text(folder_ / "cut.fst", fst.substr(0, fst.size() / 2));
+  write_text(folder_ / "cut.fst", fst.substr(0, fst.size() * 2 / 3));
+  const TraceDiff blocks = diff_traces(folder_ / "a.fst", folder_ / "cut.fst");
+  EXPECT_TRUE(blocks.same());
+  EXPECT_FALSE(blocks.b_complete);
+  EXPECT_GT(blocks.comparisons.front().b_pixels, 0U);
+  EXPECT_LT(blocks.comparisons.front().b_pixels, blocks.comparisons.front().a_pixels);
+  write_text(folder_ / "names.fst", fst.substr(0, 500));
   write_text(folder_ / "none.vcd", "hello\n");
   write_text(folder_ / "names.vcd",
              "$timescale 1 ns $end\n$scope module top $end\n"
              "$var wire 1 ! clk $end\n$upscope $end\n$enddefinitions $end\n");
-  for (const char* name : {"cut.fst", "none.vcd", "names.vcd", "absent.vcd"}) {
+  for (const char* name : {"names.fst", "none.vcd", "names.vcd", "absent.vcd"}) {
     EXPECT_THROW(diff_traces(folder_ / "a.vcd", folder_ / name), InputError) << name;
   }
 }

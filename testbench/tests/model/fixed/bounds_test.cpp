@@ -9,7 +9,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 8;
+constexpr unsigned kBoundsSeed = 8;
 constexpr int kFraction = 8;  // bits of the registers
 
 // The largest difference of a stepped series from its unrounded coefficients, in units, over one
@@ -49,8 +49,8 @@ double measured_drift(Random& random, const FixedPointFormats& formats, int exte
 }
 
 TEST(RoundingBound, HoldsForRandomSeriesAndIsNearlyReached) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kBoundsSeed);
+  Random random(kBoundsSeed);
   for (const Anchor anchor : {Anchor::triangle, Anchor::span}) {
     FixedPointFormats formats;
     formats.anchor = anchor;
@@ -125,8 +125,8 @@ TEST(TableErrorBound, HoldsForEveryWordAndIsNearlyReached) {
 
 // The ends of the ranges are values of some pixel: the ranges are those of stepping, exactly.
 TEST(RegisterRanges, AreThoseOfSteppingEveryPixel) {
-  SCOPED_TRACE(kSeed);
-  for (unsigned seed = kSeed; seed < kSeed + 20; ++seed) {
+  SCOPED_TRACE(kBoundsSeed);
+  for (unsigned seed = kBoundsSeed; seed < kBoundsSeed + 20; ++seed) {
     Random random(seed);
     const auto [scene, geometry, configuration] = random_effects(random);
     const FrameSetup frame(scene, geometry, with_derived_blocks(configuration, scene, geometry));

@@ -14,7 +14,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kFirstSeed = 211;
+constexpr unsigned kConeFirstSeed = 211;
 constexpr unsigned kSeeds = 4000;
 
 // Above the plane of random_triangle's positions, which are all near (0, 0, −½): they are moved to
@@ -84,7 +84,7 @@ TEST(Cone, PartsRowsWherePixelCentersLeaveIt) {
   // Double against long double; a centre so near to the cone's surface may be either way.
   constexpr long double kNoise = 1e-12L;
   std::size_t inside = 0, outside = 0, cut = 0, whole = 0;
-  for (unsigned seed = kFirstSeed; seed < kFirstSeed + kSeeds; ++seed) {
+  for (unsigned seed = kConeFirstSeed; seed < kConeFirstSeed + kSeeds; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     Scene scene = lit_scene(100, 100);
@@ -131,7 +131,7 @@ TEST(Cone, PartsRowsWherePixelCentersLeaveIt) {
 }
 
 TEST(Cone, OfAPointLightIsEverywhere) {
-  Random random(kFirstSeed);
+  Random random(kConeFirstSeed);
   Light light = random_spot(random);
   light.type = LightType::point;
   const ScreenTriangle triangle = placed(random_triangle(random, lit_scene(100, 100).image, 30));
@@ -146,7 +146,7 @@ TEST(Cone, OfAPointLightIsEverywhere) {
 
 // Whether the light is the first, which writes, or a further one, which adds.
 TEST(Cone, OutsideAPictureIsThatWithoutTheLight) {
-  for (unsigned seed = kFirstSeed; seed < kFirstSeed + 60; ++seed) {
+  for (unsigned seed = kConeFirstSeed; seed < kConeFirstSeed + 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     Scene scene = lit_scene(100, 100);

@@ -13,11 +13,11 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 77;
+constexpr unsigned kCoverageSeed = 77;
 
 TEST(Coverage, OfOneTriangleIsTheTopLeftRule) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kCoverageSeed);
+  Random random(kCoverageSeed);
   int covered = 0;
   for (int i = 0; i < 4000; ++i) {
     const Point p = random_point(random, -4, 20), q = random_point(random, -4, 20);
@@ -44,8 +44,8 @@ TEST(Coverage, ASquareOfCentresTakesItsTopAndLeftEdge) {
 }
 
 TEST(Coverage, AFanCoversEachPixelOnce) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kCoverageSeed);
+  Random random(kCoverageSeed);
   for (int i = 0; i < 300; ++i) {
     const Point hub = random_point(random, 8, 24);
     const int blades = random.integer(4, 9);  // each less than half a turn
@@ -67,8 +67,8 @@ TEST(Coverage, AFanCoversEachPixelOnce) {
 }
 
 TEST(Coverage, AGridCoversTheImageOnce) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kCoverageSeed);
+  Random random(kCoverageSeed);
   constexpr int kCells = 8, kCell = 6, kSize = 40;  // reaches 4 pixels beyond the image all round
   for (int i = 0; i < 100; ++i) {
     std::array<std::array<Point, kCells + 1>, kCells + 1> corner;
@@ -103,8 +103,8 @@ TEST(Coverage, ATriangleWithoutAreaCoversNothing) {
 
 // Corners as far out as the guard band lets them be: no product may overflow.
 TEST(Coverage, HoldsUpToTheGuardBand) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kCoverageSeed);
+  Random random(kCoverageSeed);
   const int size = kMaxImageSize, low = -kGuardBand, high = kMaxImageSize + kGuardBand;
   for (int i = 0; i < 200; ++i) {
     const auto corner = [&] {
@@ -132,8 +132,8 @@ TEST(Coverage, HoldsUpToTheGuardBand) {
 }
 
 TEST(ExpansionPixel, IsTheCoveredPixelNearestToTheCentroid) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kCoverageSeed);
+  Random random(kCoverageSeed);
   int outside = 0;
   for (int i = 0; i < 3000; ++i) {
     const Point p = random_point(random, -20, 40), q = random_point(random, -20, 40);

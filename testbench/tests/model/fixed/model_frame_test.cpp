@@ -16,7 +16,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 41;
+constexpr unsigned kModelFrameSeed = 41;
 
 using Real = long double;
 
@@ -52,8 +52,8 @@ Real check_span(const SeriesStart& start, const Quadratic<double>& real, std::in
 }
 
 void expect_drift_within_bound(Anchor anchor) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kModelFrameSeed);
+  Random random(kModelFrameSeed);
   Real largest_share = 0;
   for (const double size : {4.0, 20.0, 100.0}) {
     const Scene scene = lit_scene(300, 300);
@@ -96,8 +96,8 @@ TEST(ModelFrame, DriftIsWithinTheBoundWhereSpansAreTheAnchor) {
 }
 
 TEST(ModelFrame, IsTheSameHoweverItIsEvaluated) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kModelFrameSeed);
+  Random random(kModelFrameSeed);
   for (const int channels : {1, 3}) {
     const Scene scene = lit_scene(160, 120);
     const Geometry geometry = random_geometry(random, scene, 80, 25);
@@ -118,8 +118,8 @@ TEST(ModelFrame, IsTheSameHoweverItIsEvaluated) {
 
 // A triangle's pixels do not depend on what was shaded before it: the right table is loaded.
 TEST(ModelFrame, TwoMaterialsAreShadedAsEachAlone) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kModelFrameSeed);
+  Random random(kModelFrameSeed);
   const Scene scene = lit_scene(160, 120);
   const Geometry geometry = random_geometry(random, scene, 40, 25);
   const FrameSetup frame(scene, geometry, FrameConfiguration());
@@ -135,8 +135,8 @@ TEST(ModelFrame, TwoMaterialsAreShadedAsEachAlone) {
 }
 
 TEST(ModelFrame, StreamSpansAndFramebufferTellTheSame) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kModelFrameSeed);
+  Random random(kModelFrameSeed);
   const Scene scene = lit_scene(160, 120);
   Geometry geometry = random_geometry(random, scene, 40, 25);
   const FrameSetup frame(scene, geometry, FrameConfiguration());
@@ -179,8 +179,8 @@ TEST(ModelFrame, StreamSpansAndFramebufferTellTheSame) {
 }
 
 TEST(ModelFrame, CountsTrianglesWhoseValuesLeaveTheirRegisters) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kModelFrameSeed);
+  Random random(kModelFrameSeed);
   const Scene scene = lit_scene(160, 120);
   Geometry geometry = random_geometry(random, scene, 10, 25);
   const FrameSetup frame(scene, geometry, FrameConfiguration());

@@ -14,7 +14,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 37;
+constexpr unsigned kPixelDatapathSeed = 37;
 constexpr std::uint32_t kUntouched = 0xdeadbeef;
 
 std::vector<std::uint32_t> shade(const PixelDatapath& datapath, const Span& span) {
@@ -47,8 +47,8 @@ void expect_same(Random& random, const DatapathConfiguration& c, Evaluation eval
 }
 
 void expect_stepping(Evaluation evaluation) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kPixelDatapathSeed);
+  Random random(kPixelDatapathSeed);
   for (int i = 0; i < 600; ++i) {
     expect_same(random, random_configuration(random), evaluation, i % 20 == 0 ? 4096 : 100);
     if (testing::Test::HasFatalFailure()) FAIL() << "configuration " << i;
@@ -57,8 +57,8 @@ void expect_stepping(Evaluation evaluation) {
 
 // Back to back, whatever the lengths, with and without highlights.
 void expect_batch_is_its_spans(Evaluation evaluation) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kPixelDatapathSeed);
+  Random random(kPixelDatapathSeed);
   for (int i = 0; i < 100; ++i) {
     const DatapathConfiguration c = random_configuration(random);
     PixelDatapath datapath(c, evaluation, random_color(random));
@@ -109,8 +109,8 @@ RC_GTEST_PROP(PixelDatapath, AllEvaluationsAgreeForAnyBlocksAndFlags, ()) {
 
 // What is left out counts as if it gave nothing.
 TEST(PixelDatapath, EveryCombinationOfBlocksInBothWordSizes) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kPixelDatapathSeed);
+  Random random(kPixelDatapathSeed);
   for (int blocks = 0; blocks < 8; ++blocks) {
     for (const GateSource gate : {GateSource::off, GateSource::diffuse, GateSource::series}) {
       for (const int channels : {1, 3}) {
@@ -133,8 +133,8 @@ TEST(PixelDatapath, EveryCombinationOfBlocksInBothWordSizes) {
 }
 
 TEST(PixelDatapath, EveryGateAndChannelCountInBothWordSizes) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kPixelDatapathSeed);
+  Random random(kPixelDatapathSeed);
   for (const int channels : {1, 3}) {
     for (const GateSource gate : {GateSource::off, GateSource::diffuse, GateSource::series}) {
       for (const int diffuse_fraction : {4, 22, 23, 30}) {  // 32 bits are 22 of them

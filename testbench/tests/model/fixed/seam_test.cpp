@@ -7,7 +7,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 41;
+constexpr unsigned kSeamSeed = 41;
 constexpr int kSize = 64;  // of the image
 constexpr int kSteps = 8;  // pixel centres on the edge, beside its first end
 
@@ -59,7 +59,7 @@ struct Seams {
 };
 
 Seams largest_seams(SeriesFit fit, Anchor anchor, Viewer viewer) {
-  Random random(kSeed);
+  Random random(kSeamSeed);
   Scene scene = lit_scene(kSize, kSize);
   scene.shading.viewer = viewer;
   FrameConfiguration configuration;
@@ -87,7 +87,7 @@ Seams largest_seams(SeriesFit fit, Anchor anchor, Viewer viewer) {
 
 // Rounded at the start of each span, both sides round the same number.
 TEST(Seam, OfSixPointIsAtMostALsbOfTheRegister) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kSeamSeed);
   for (const Viewer viewer : {Viewer::infinite, Viewer::local}) {
     const Seams seams = largest_seams(SeriesFit::six_point, Anchor::span, viewer);
     EXPECT_LE(seams.diffuse, 1);
@@ -98,7 +98,7 @@ TEST(Seam, OfSixPointIsAtMostALsbOfTheRegister) {
 // Rounded once a triangle, errors grow with its extent; an LSB of the output, or an address of the
 // table, they do not reach.
 TEST(Seam, OfSixPointRoundedOnceIsLessThanALsbOfTheOutput) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kSeamSeed);
   const FrameConfiguration configuration;
   const Seams seams = largest_seams(SeriesFit::six_point, Anchor::triangle, Viewer::infinite);
   EXPECT_LT(seams.diffuse, 1 << configuration.diffuse_fraction_bits);
@@ -107,7 +107,7 @@ TEST(Seam, OfSixPointRoundedOnceIsLessThanALsbOfTheOutput) {
 
 // The measure sees seams where there are some.
 TEST(Seam, OfTaylorIsMoreThanALsbOfTheOutput) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kSeamSeed);
   const FrameConfiguration configuration;
   const Seams seams = largest_seams(SeriesFit::taylor, Anchor::span, Viewer::infinite);
   EXPECT_GT(seams.diffuse, 1 << configuration.diffuse_fraction_bits);

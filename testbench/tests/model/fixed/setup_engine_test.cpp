@@ -12,7 +12,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 29;
+constexpr unsigned kSetupEngineSeed = 29;
 
 // In units of the fixed-point number, 2^−fraction_bits.
 void expect_rounded(std::int64_t fixed, double real, int fraction_bits, const std::string& what) {
@@ -39,8 +39,8 @@ void expect_rounded(const FixedLinear& fixed, const Linear<double>& real, int fr
 }
 
 TEST(SetupEngine, RoundsEachCoefficientToNearest) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kSetupEngineSeed);
+  Random random(kSetupEngineSeed);
   for (const Anchor anchor : {Anchor::triangle, Anchor::span}) {
     for (const Viewer viewer : {Viewer::infinite, Viewer::local}) {
       Scene scene = lit_scene(200, 200);

@@ -15,7 +15,7 @@ namespace {
 
 __extension__ using Wide = __int128;
 
-constexpr unsigned kSeed = 31;
+constexpr unsigned kSpanWalkerSeed = 31;
 
 Wide exact_value(const FixedQuadratic& t, int x, int y) {
   return Wide{t.t5} * x * x + Wide{t.t4} * x * y + Wide{t.t3} * y * y + Wide{t.t2} * x +
@@ -55,8 +55,8 @@ FixedQuadratic random_series(Random& random, double range, int length) {
 }
 
 TEST(SpanWalker, StartsAreExactFromTheRoundedCoefficients) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kSpanWalkerSeed);
+  Random random(kSpanWalkerSeed);
   for (const Anchor anchor : {Anchor::triangle, Anchor::span}) {
     FrameConfiguration configuration;
     configuration.channels = 3;
@@ -129,8 +129,8 @@ struct Formats {
 
 // `margin`: the share of the register's range within which a flag is not yet asked for.
 void expect_flags(const Formats& formats, double margin) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kSpanWalkerSeed);
+  Random random(kSpanWalkerSeed);
   FrameConfiguration configuration;
   configuration.anchor = formats.anchor;
   configuration.diffuse_fraction_bits = formats.diffuse_fraction;
@@ -235,7 +235,7 @@ void expect_same(const Span& a, const Span& b) {
 // Looks at every triangle that is set up, of random frames.
 template <typename Look>
 void for_random_triangles(unsigned frames, Look look) {
-  for (unsigned seed = kSeed; seed < kSeed + frames; ++seed) {
+  for (unsigned seed = kSpanWalkerSeed; seed < kSpanWalkerSeed + frames; ++seed) {
     Random random(seed);
     const RandomEffects e = random_effects(random);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + text(e));

@@ -19,7 +19,7 @@ namespace {
 __extension__ using Wide = __int128;
 using Corners = std::array<Point, 3>;
 
-constexpr unsigned kSeed = 2026;
+constexpr unsigned kWatertightSeed = 2026;
 constexpr int kGrid = kSubpixels >> kGridBits;  // subpixels between snapped coordinates
 constexpr int kBlades = 64;                     // of a fan
 // Coordinates of vertices around the largest image.
@@ -118,8 +118,8 @@ Point around(double x, double y, double radius, double angle) {  // pixels
 }
 
 TEST(Watertight, FansOf64MeetOnAPixelCentre) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   for (int i = 0; i < 4000; ++i) {
     const int x = random.integer(4, 19), y = random.integer(4, 19);
     Fan fan = {{centre(x), centre(y)}, {}};
@@ -143,8 +143,8 @@ Point on_square(int k) {
 
 // All blades run along centres, or along the edges between pixels.
 TEST(Watertight, FansOf64HaveSpokesOverPixelCentres) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   for (int i = 0; i < 4000; ++i) {
     const Point hub = {centre(random.integer(4, 19)), centre(random.integer(4, 19))};
     Fan fan = {hub, {}};
@@ -161,8 +161,8 @@ TEST(Watertight, FansOf64HaveSpokesOverPixelCentres) {
 
 // So small that snapping makes lines of blades, and turns others over.
 TEST(Watertight, FansThatSnappingFoldsOver) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   constexpr double kStep = 1.0 / (1 << kGridBits);
   int folded = 0, flat = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -182,8 +182,8 @@ TEST(Watertight, FansThatSnappingFoldsOver) {
 }
 
 TEST(Watertight, FansAroundAnyTangle) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   for (int i = 0; i < 2000; ++i) {
     Fan fan = {random_point(random, -4, 20), {}};
     for (int k = 0; k < kBlades; ++k) fan.rim.push_back(random_point(random, -4, 20));
@@ -208,8 +208,8 @@ Corners random_corners(Random& random, int low, int high) {
 }
 
 TEST(Watertight, EveryOrderOfTheCornersIsTheReference) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   constexpr int kSize = 12;
   int covered = 0;
   for (int i = 0; i < 60000; ++i) {
@@ -236,8 +236,8 @@ std::vector<RowSpan> moved(const std::vector<RowSpan>& rows, int dx, int dy, int
 }
 
 TEST(Watertight, MovingByWholePixelsMovesTheRows) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   constexpr int kReach = 16;  // of a triangle
   int cut = 0;
   for (int i = 0; i < 100000; ++i) {
@@ -294,8 +294,8 @@ Corners corners_off_centres(Random& random) {
 }
 
 TEST(Watertight, MirroringMirrorsTheRowsWhereNoCentreIsOnAnEdge) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   constexpr int kSize = 16;
   for (int i = 0; i < 60000; ++i) {
     const Corners corners = corners_off_centres(random);
@@ -309,8 +309,8 @@ TEST(Watertight, MirroringMirrorsTheRowsWhereNoCentreIsOnAnEdge) {
 }
 
 TEST(Watertight, MirroringMirrorsTheRuleForCentresOnEdges) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   constexpr int kSize = 12;
   int decided = 0;  // by the rule
   for (int i = 0; i < 20000; ++i) {
@@ -333,8 +333,8 @@ TEST(Watertight, MirroringMirrorsTheRuleForCentresOnEdges) {
 
 // Up to 16,384 pixels long, and less than one wide where they cross the image.
 TEST(Watertight, NeedlesAreTheReference) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   constexpr int kSize = 16;
   int covered = 0;
   for (int i = 0; i < 40000; ++i) {
@@ -353,8 +353,8 @@ TEST(Watertight, NeedlesAreTheReference) {
 // Needles side by side from a far tip to a straight base in the image: together they are one
 // triangle, and cover what it covers.
 TEST(Watertight, ABundleOf64NeedlesIsItsHull) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   constexpr int kSize = 16;
   int covered = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -395,8 +395,8 @@ struct Strip {
 };
 
 TEST(Watertight, AnUprightStripIsOnePixelInEachOf4096Rows) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   for (int i = 0; i < 300; ++i) {
     const Strip strip(random, true);
     std::vector<int> pixels(kMaxImageSize);
@@ -412,8 +412,8 @@ TEST(Watertight, AnUprightStripIsOnePixelInEachOf4096Rows) {
 }
 
 TEST(Watertight, ALyingStripIsOnePixelInEachOf4096Columns) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   for (int i = 0; i < 300; ++i) {
     const Strip strip(random, false);
     std::vector<int> pixels(kMaxImageSize);
@@ -442,8 +442,8 @@ Point far_corner(Random& random) {
 
 // Each row whole, against the reference, at the image's ends and between them.
 TEST(Watertight, CornersAtTheEndsOfTheirRangeAreTheReference) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   constexpr int kLast = kMaxImageSize - 1;
   int covered = 0;
   for (int i = 0; i < 400; ++i) {
@@ -480,8 +480,8 @@ void expect_filled(std::vector<RowSpan>& row) {
 
 // The rim is the border of all that coordinates can be, with its corners.
 TEST(Watertight, FansOf64ToTheEndsOfTheRangeFillTheImage) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kWatertightSeed);
+  Random random(kWatertightSeed);
   constexpr int kUnit = (kHighest - kLowest) / 16;  // on_square() is 16 wide
   for (int i = 0; i < 10; ++i) {
     const Point hub = {centre(random.integer(0, kMaxImageSize - 1)),

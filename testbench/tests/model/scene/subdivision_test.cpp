@@ -10,7 +10,7 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 31;
+constexpr unsigned kSubdivisionSeed = 31;
 constexpr int kSize = 48;  // of the image
 constexpr double kDegrees = 3.14159265358979323846 / 180;
 
@@ -77,8 +77,8 @@ std::vector<int> coverage(const Geometry& geometry, Counts counts) {
 }
 
 TEST(Subdivision, SplitsInFourWhatTurnsByMoreThanTheLimit) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kSubdivisionSeed);
+  Random random(kSubdivisionSeed);
   const Geometry geometry = random_mesh(random);
   const Subdivision result = subdivide(lit_scene(kSize, kSize), geometry, 40);
   ASSERT_EQ(result.geometry.triangles.size(), result.whole.size());
@@ -100,8 +100,8 @@ TEST(Subdivision, SplitsInFourWhatTurnsByMoreThanTheLimit) {
 
 // A highlight of this power fades below an LSB 20 degrees from its middle.
 TEST(Subdivision, WhereAHighlightFallsTheLimitIsHowFarItReaches) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kSubdivisionSeed);
+  Random random(kSubdivisionSeed);
   constexpr double kPower = 89;
   const double reach = std::acos(std::pow(1.0 / 255, 1 / kPower)) / kDegrees;
   EXPECT_NEAR(reach, 20, 0.1);
@@ -160,8 +160,8 @@ TEST(Subdivision, LightCloseByHasALimitOfItsOwn) {
 }
 
 TEST(Subdivision, ZeroIsNever) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kSubdivisionSeed);
+  Random random(kSubdivisionSeed);
   const Geometry geometry = random_mesh(random);
   const Subdivision result = subdivide(lit_scene(kSize, kSize), geometry, 0);
   EXPECT_EQ(result.geometry.triangles.size(), geometry.triangles.size());
@@ -170,8 +170,8 @@ TEST(Subdivision, ZeroIsNever) {
 }
 
 TEST(Subdivision, EndsAtTheFinestLevel) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kSubdivisionSeed);
+  Random random(kSubdivisionSeed);
   Geometry geometry = random_mesh(random);
   geometry.triangles.resize(1);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -181,8 +181,8 @@ TEST(Subdivision, EndsAtTheFinestLevel) {
 }
 
 TEST(Subdivision, PiecesCoverThePixelsOfTheWholeEachOnce) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kSubdivisionSeed);
+  Random random(kSubdivisionSeed);
   for (int i = 0; i < 40; ++i) {
     const Geometry geometry = random_mesh(random);
     const Subdivision result = subdivide(lit_scene(kSize, kSize), geometry, i % 2 == 0 ? 40 : 15);
@@ -197,8 +197,8 @@ TEST(Subdivision, PiecesCoverThePixelsOfTheWholeEachOnce) {
 
 // The reference is the same function, for an eye and a light at a distance too.
 TEST(Subdivision, ExactPhongShadingIsThatOfTheWhole) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kSubdivisionSeed);
+  Random random(kSubdivisionSeed);
   Geometry geometry = random_mesh(random);
   geometry.materials = {grey_material(0.6, 0.3, 20)};
   Scene scene = lit_scene(kSize, kSize);

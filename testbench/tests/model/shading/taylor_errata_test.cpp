@@ -10,16 +10,16 @@
 #include "model/shading/taylor.h"
 
 #include "testbench/system/random.h"
+#include "testbench/tests/model/shading/six.h"
 
 namespace phongpipe {
 namespace {
 
 using Vec = Vector3<double>;
-using Six = std::array<double, 6>;  // T0 … T5
 
-constexpr unsigned kSeed = 1986;
-constexpr int kCases = 2000;
-constexpr double kAgree = 1e-12;  // measured below 3e-14
+constexpr unsigned kTaylorErrataSeed = 1986;
+constexpr int kTaylorErrataCases = 2000;
+constexpr double kTaylorErrataAgree = 1e-12;  // measured below 3e-14
 constexpr double kFarOff = 1e-3;
 
 double power(double x, int n) {
@@ -84,10 +84,6 @@ Six paper_finite(const Linear<Vec>& normal, const Linear<Vec>& halfway, Printed 
           t5 / (8 * l2 * r2 * root)};
 }
 
-Six six(const Quadratic<double>& t) {
-  return {t.t0, t.t1, t.t2, t.t3, t.t4, t.t5};
-}
-
 // Of T_i, relative to the largest of the six.
 double difference_of(std::size_t i, const Six& t, const Six& expected) {
   double size = 0;
@@ -95,7 +91,7 @@ double difference_of(std::size_t i, const Six& t, const Six& expected) {
   return std::fabs(t[i] - expected[i]) / size;
 }
 
-Linear<Vec> random_linear(Random& random) {
+Linear<Vec> linear_away_from_zero(Random& random) {
   const auto component = [&random] { return random.uniform(-1, 1); };
   const auto vector = [&] { return Vec{component(), component(), component()}; };
   Vec c = vector();
@@ -114,12 +110,13 @@ struct Erratum {
 class PaperErrata : public testing::TestWithParam<Erratum> {};
 
 TEST_P(PaperErrata, OnlyTheCorrectedFormAgrees) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kTaylorErrataSeed);
   const auto& [name, printed, finite, coefficient] = GetParam();
-  Random random(kSeed);
+  Random random(kTaylorErrataSeed);
   double worst_printed = 0;
-  for (int i = 0; i < kCases; ++i) {
-    const Linear<Vec> normal = random_linear(random), halfway = random_linear(random);
+  for (int i = 0; i < kTaylorErrataCases; ++i) {
+    const Linear<Vec> normal = linear_away_from_zero(random),
+                      halfway = linear_away_from_zero(random);
     const NormalExpansion<double> expansion(normal);
     const Vec light = halfway.c.normalized();
     const Six ours = six(finite ? expansion.finite(halfway) : expansion.infinite(light));
@@ -127,7 +124,7 @@ TEST_P(PaperErrata, OnlyTheCorrectedFormAgrees) {
       return finite ? paper_finite(normal, halfway, what) : paper_infinite(normal, light, what);
     };
     for (std::size_t k = 0; k < 6; ++k) {
-      ASSERT_LT(difference_of(k, ours, paper(Printed::nothing)), kAgree)
+      ASSERT_LT(difference_of(k, ours, paper(Printed::nothing)), kTaylorErrataAgree)
           << "case " << i << ": T" << k << " is " << ours[k] << ", the corrected form has "
           << paper(Printed::nothing)[k];
     }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "testbench/system/random.h"
+#include "testbench/tests/model/shading/six.h"
 
 namespace phongpipe {
 namespace {
@@ -53,11 +54,6 @@ Jet dot(const Linear<Vec>& p, const Linear<Vec>& q) {
   return sum;
 }
 
-using Six = std::array<double, 6>;  // T0 … T5
-Six six(const Quadratic<double>& t) {
-  return {t.t0, t.t1, t.t2, t.t3, t.t4, t.t5};
-}
-
 Six series_of_cosine(const Linear<Vec>& n, const Linear<Vec>& m) {
   const Jet s = dot(n, m) * inverse_root(dot(n, n)) * inverse_root(dot(m, m));
   Six t;
@@ -92,38 +88,38 @@ Linear<Vec> random_linear(Random& random) {
   return {a, b, length * random.unit()};
 }
 
-constexpr unsigned kSeed = 1986;
-constexpr int kCases = 2000;
-constexpr double kAgree = 1e-12;  // measured: infinite 2.0e-15, finite 2.7e-15
+constexpr unsigned kTaylorSeed = 1986;
+constexpr int kTaylorCases = 2000;
+constexpr double kTaylorAgree = 1e-12;  // measured: infinite 2.0e-15, finite 2.7e-15
 
 TEST(NormalExpansion, InfiniteIsTheTruncatedPowerSeries) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kTaylorSeed);
+  Random random(kTaylorSeed);
   double worst = 0;
-  for (int i = 0; i < kCases; ++i) {
+  for (int i = 0; i < kTaylorCases; ++i) {
     const Linear<Vec> n = random_linear(random);
     const Vec light = random.unit();
     const Six t = six(NormalExpansion<double>(n).infinite(light));
     const Six expected = series_of_cosine(n, {Vec::Zero(), Vec::Zero(), light});
-    ASSERT_LT(relative_difference(t, expected), kAgree) << "case " << i << "\n"
-                                                        << text(t) << "\n"
-                                                        << text(expected);
+    ASSERT_LT(relative_difference(t, expected), kTaylorAgree) << "case " << i << "\n"
+                                                              << text(t) << "\n"
+                                                              << text(expected);
     worst = std::max(worst, relative_difference(t, expected));
   }
   RecordProperty("largest_relative_difference", std::to_string(worst * 1e15) + "e-15");
 }
 
 TEST(NormalExpansion, FiniteIsTheTruncatedPowerSeries) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
+  SCOPED_TRACE(kTaylorSeed);
+  Random random(kTaylorSeed);
   double worst = 0;
-  for (int i = 0; i < kCases; ++i) {
+  for (int i = 0; i < kTaylorCases; ++i) {
     const Linear<Vec> n = random_linear(random), m = random_linear(random);
     const Six t = six(NormalExpansion<double>(n).finite(m));
     const Six expected = series_of_cosine(n, m);
-    ASSERT_LT(relative_difference(t, expected), kAgree) << "case " << i << "\n"
-                                                        << text(t) << "\n"
-                                                        << text(expected);
+    ASSERT_LT(relative_difference(t, expected), kTaylorAgree) << "case " << i << "\n"
+                                                              << text(t) << "\n"
+                                                              << text(expected);
     worst = std::max(worst, relative_difference(t, expected));
   }
   RecordProperty("largest_relative_difference", std::to_string(worst * 1e15) + "e-15");
@@ -131,9 +127,9 @@ TEST(NormalExpansion, FiniteIsTheTruncatedPowerSeries) {
 
 // T5's printed error vanishes on symmetric triangles: so expand about a corner, too.
 TEST(NormalExpansion, HoldsAboutACornerAsWellAsAboutTheCentre) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
-  for (int i = 0; i < kCases; ++i) {
+  SCOPED_TRACE(kTaylorSeed);
+  Random random(kTaylorSeed);
+  for (int i = 0; i < kTaylorCases; ++i) {
     const Vec axis = random.unit(), light = random.unit();
     std::array<Vec, 3> n, m;
     for (Vec& normal : n) normal = random.unit_near(axis, 40);
@@ -155,39 +151,39 @@ TEST(NormalExpansion, HoldsAboutACornerAsWellAsAboutTheCentre) {
       EXPECT_LT(relative_difference(
                     per_triangle(six(expansion.infinite(light))),
                     per_triangle(series_of_cosine(normal, {Vec::Zero(), Vec::Zero(), light}))),
-                kAgree)
+                kTaylorAgree)
           << "infinite, case " << i << (corner ? " corner" : " centre");
       EXPECT_LT(relative_difference(per_triangle(six(expansion.finite(halfway))),
                                     per_triangle(series_of_cosine(normal, halfway))),
-                kAgree)
+                kTaylorAgree)
           << "finite, case " << i << (corner ? " corner" : " centre");
     }
   }
 }
 
 TEST(NormalExpansion, DoesNotDependOnTheLengthOfTheNormals) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
-  for (int i = 0; i < kCases; ++i) {
+  SCOPED_TRACE(kTaylorSeed);
+  Random random(kTaylorSeed);
+  for (int i = 0; i < kTaylorCases; ++i) {
     const Linear<Vec> n = random_linear(random), m = random_linear(random);
     const double k = random.uniform(0.01, 100);
     const Linear<Vec> scaled = {k * n.a, k * n.b, k * n.c};
     const Vec light = random.unit();
     EXPECT_LT(relative_difference(six(NormalExpansion<double>(scaled).infinite(light)),
                                   six(NormalExpansion<double>(n).infinite(light))),
-              kAgree)
+              kTaylorAgree)
         << "case " << i << ", times " << k;
     EXPECT_LT(relative_difference(six(NormalExpansion<double>(scaled).finite(m)),
                                   six(NormalExpansion<double>(n).finite(m))),
-              kAgree)
+              kTaylorAgree)
         << "case " << i << ", times " << k;
   }
 }
 
 TEST(Interpolator, ReproducesTheCornersAndWhatIsBetween) {
-  SCOPED_TRACE(kSeed);
-  Random random(kSeed);
-  for (int i = 0; i < kCases; ++i) {
+  SCOPED_TRACE(kTaylorSeed);
+  Random random(kTaylorSeed);
+  for (int i = 0; i < kTaylorCases; ++i) {
     // Corners around a circle, in either order, so that no case is a sliver.
     const double start = random.uniform(0, 6), turn = i % 2 == 0 ? 2.1 : -2.1;
     std::array<double, 3> x, y, q;

@@ -5,16 +5,11 @@
 
 #include "model/shading/methods/angle_interpolation.h"
 #include "model/shading/methods/forward_differences.h"
+#include "testbench/tests/model/shading/methods/errata.h"
 #include "testbench/tests/model/shading/methods/triangles.h"
 
 namespace phongpipe {
 namespace {
-
-constexpr double kLarge = 0.05;  // what a printed form misses by, at least, as a cosine
-
-Vec3 mirrored(const Vec3& v, const Vec3& unit_normal) {
-  return 2 * unit_normal.dot(v) * unit_normal - v;
-}
 
 TEST(Errata, DuffsDenominatorIsTheLengthOfTheNormal) {
   OneTriangle t = random_triangle(60, 7);

@@ -3,16 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "model/shading/methods/reflection_shading.h"
+#include "testbench/tests/model/shading/methods/errata.h"
 #include "testbench/tests/model/shading/methods/triangles.h"
 
 namespace phongpipe {
 namespace {
-
-constexpr double kLarge = 0.05;  // what a printed form misses by, at least, as a cosine
-
-Vec3 mirrored(const Vec3& v, const Vec3& unit_normal) {
-  return 2 * unit_normal.dot(v) * unit_normal - v;
-}
 
 // Eq. 30 as far as the scan shows it: without the parentheses the middle coefficient is wrong.
 TEST(HastErrata, Equation30) {

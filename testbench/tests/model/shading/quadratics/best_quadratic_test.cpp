@@ -8,11 +8,11 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 12;
+constexpr unsigned kBestQuadraticSeed = 12;
 
 TEST(BestQuadratic, IsWithinTwoPercentOfItsLowerBound) {
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
+  SCOPED_TRACE(kBestQuadraticSeed);
+  RandomCases random(kBestQuadraticSeed);
   for (int n = 0; n < 40; ++n) {
     const CosineCase c = n % 2 == 0 ? random.diffuse(40) : random.specular(25, 60);
     const auto cosine = [&c](double u, double v) { return c.cosine(u, v); };
@@ -23,7 +23,7 @@ TEST(BestQuadratic, IsWithinTwoPercentOfItsLowerBound) {
 }
 
 TEST(BestQuadratic, StopsWhereTheErrorIsGoodEnough) {
-  const CosineCase c = RandomCases(kSeed).diffuse(40);
+  const CosineCase c = RandomCases(kBestQuadraticSeed).diffuse(40);
   const auto samples = dense_samples(20, [&c](double u, double v) { return c.cosine(u, v); });
   const double limit = best_quadratic(samples, 1).error;
   const double stopped = best_quadratic(samples, 1, 1.5 * limit).error;
@@ -41,8 +41,8 @@ TEST(BestQuadratic, OfAQuadraticIsItself) {
 }
 
 TEST(BestQuadratic, BeatsEveryPracticalFit) {
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
+  SCOPED_TRACE(kBestQuadraticSeed);
+  RandomCases random(kBestQuadraticSeed);
   for (int n = 0; n < 60; ++n) {
     const CosineCase c = n % 2 == 0 ? random.diffuse(40) : random.specular(25, 20);
     const double limit = largest_error(c, best(c, 20), 20);

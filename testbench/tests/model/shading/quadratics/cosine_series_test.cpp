@@ -7,21 +7,18 @@
 
 #include "sim/schedule.h"
 #include "testbench/tests/model/shading/quadratics/random_cases.h"
+#include "testbench/tests/model/shading/six.h"
 
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 13;
+constexpr unsigned kCosineSeriesSeed = 13;
 constexpr int kTriangles = 301;
-const std::array<SeriesFit, 4> kFits = {SeriesFit::taylor, SeriesFit::six_point,
-                                        SeriesFit::weighted, SeriesFit::focused};
-
-std::array<double, 6> coefficients(const Quadratic<double>& q) {
-  return {q.t0, q.t1, q.t2, q.t3, q.t4, q.t5};
-}
+const std::array<SeriesFit, 4> kCosineSeriesFits = {SeriesFit::taylor, SeriesFit::six_point,
+                                                    SeriesFit::weighted, SeriesFit::focused};
 
 Spread errors(SeriesFit fit, double spread, double power) {
-  RandomCases random(kSeed);
+  RandomCases random(kCosineSeriesSeed);
   std::vector<double> values;
   for (int i = 0; i < kTriangles; ++i) {
     const CosineCase c = power == 1 ? random.diffuse(spread) : random.specular(spread, power);
@@ -38,14 +35,14 @@ std::size_t operations(SeriesFit fit) {
 }
 
 TEST(CosineSeries, DoesNotDependOnTheLengthOfTheNormals) {
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
+  SCOPED_TRACE(kCosineSeriesSeed);
+  RandomCases random(kCosineSeriesSeed);
   for (int i = 0; i < 200; ++i) {
     CosineCase c = random.specular(30, 20);
-    for (const SeriesFit fit : kFits) {
+    for (const SeriesFit fit : kCosineSeriesFits) {
       CosineCase longer = c;
       for (Vec& n : longer.normal) n *= 3.7;
-      const auto t = coefficients(fitted(fit, c)), scaled = coefficients(fitted(fit, longer));
+      const auto t = six(fitted(fit, c)), scaled = six(fitted(fit, longer));
       for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(t[k], scaled[k], 1e-10);
     }
   }
@@ -53,52 +50,50 @@ TEST(CosineSeries, DoesNotDependOnTheLengthOfTheNormals) {
 
 // What is left out of a triangle's setup must not change the other.
 TEST(CosineSeries, EitherAloneIsTheSameToTheBit) {
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
+  SCOPED_TRACE(kCosineSeriesSeed);
+  RandomCases random(kCosineSeriesSeed);
   for (int i = 0; i < 200; ++i) {
     const CosineCase c = random.specular(30, 20);
     const Interpolator<double> interpolate({0, 9, 2}, {0, 1, 8});
     const Corners<double> halfway = {c.m, c.normal[0], c.normal[2]};
-    for (const SeriesFit fit : kFits) {
+    for (const SeriesFit fit : kCosineSeriesFits) {
       const SeriesWanted light_only = {true, false}, highlight_only = {false, true};
       const auto alone = [&](const auto& m, const SeriesWanted& wanted) {
         return fit_series(fit, interpolate, c.normal, c.m, m, 19.0, wanted);
       };
-      const auto light = coefficients(alone(c.m, light_only).light);
+      const auto light = six(alone(c.m, light_only).light);
       const auto at_infinity = fit_series(fit, interpolate, c.normal, c.m, c.m, 19.0);
       const auto local = fit_series(fit, interpolate, c.normal, c.m, halfway, 19.0);
-      EXPECT_EQ(light, coefficients(at_infinity.light));
-      EXPECT_EQ(light, coefficients(local.light));
-      EXPECT_EQ(coefficients(alone(c.m, highlight_only).highlight),
-                coefficients(at_infinity.highlight));
-      EXPECT_EQ(coefficients(alone(halfway, highlight_only).highlight),
-                coefficients(local.highlight));
+      EXPECT_EQ(light, six(at_infinity.light));
+      EXPECT_EQ(light, six(local.light));
+      EXPECT_EQ(six(alone(c.m, highlight_only).highlight), six(at_infinity.highlight));
+      EXPECT_EQ(six(alone(halfway, highlight_only).highlight), six(local.highlight));
     }
   }
 }
 
 // What it costs in LSB when corners come in another order is nothing.
 TEST(CosineSeries, DoesNotDependOnTheOrderOfTheCorners) {
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
+  SCOPED_TRACE(kCosineSeriesSeed);
+  RandomCases random(kCosineSeriesSeed);
   for (int i = 0; i < 200; ++i) {
     const CosineCase c = random.specular(30, 20);
-    for (const SeriesFit fit : kFits) {
+    for (const SeriesFit fit : kCosineSeriesFits) {
       const Interpolator<double> there({0, 9, 2}, {0, 1, 8}), back({2, 9, 0}, {8, 1, 0});
       const auto& n = c.normal;
       const auto a = fit_series(fit, there, n, c.m, c.m, 19.0);
       const auto b = fit_series(fit, back, {n[2], n[1], n[0]}, c.m, c.m, 19.0);
       for (std::size_t k = 0; k < 6; ++k) {
-        EXPECT_NEAR(coefficients(a.light)[k], coefficients(b.light)[k], 1e-10);
-        EXPECT_NEAR(coefficients(a.highlight)[k], coefficients(b.highlight)[k], 1e-10);
+        EXPECT_NEAR(six(a.light)[k], six(b.light)[k], 1e-10);
+        EXPECT_NEAR(six(a.highlight)[k], six(b.highlight)[k], 1e-10);
       }
     }
   }
 }
 
 TEST(SixPoint, SamplesAreTheSameToTheBitFromBothSidesOfAnEdge) {
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
+  SCOPED_TRACE(kCosineSeriesSeed);
+  RandomCases random(kCosineSeriesSeed);
   for (int i = 0; i < 1000; ++i) {
     const std::array<Vec, 3> n = random.normals(40), m = random.normals(20);
     const Vec light = random.unit(), other = random.unit();
@@ -114,8 +109,8 @@ TEST(SixPoint, SamplesAreTheSameToTheBitFromBothSidesOfAnEdge) {
 }
 
 TEST(SixPoint, HasNoSeams) {
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
+  SCOPED_TRACE(kCosineSeriesSeed);
+  RandomCases random(kCosineSeriesSeed);
   for (int i = 0; i < 200; ++i) {
     const std::array<Vec, 3> n = random.normals(60);
     const Vec light = random.unit();
@@ -132,7 +127,7 @@ TEST(SixPoint, HasNoSeams) {
 
 // Medians of NUMERICS section 4, to a quarter.
 TEST(CosineSeries, ErrorsAreThoseOfTheAnalysis) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kCosineSeriesSeed);
   struct Row {
     double spread, power, taylor, six_point, weighted;
   };
@@ -160,7 +155,7 @@ TEST(Focused, IsNearTheBestQuadratic) {
   for (const Row& row :
        {Row{20, 1, 1.5}, Row{30, 1, 1.5}, Row{60, 1, 1.5}, Row{20, 20, 1.5}, Row{30, 20, 1.5},
         Row{45, 20, 1.5}, Row{15, 164, 1.5}, Row{20, 164, 1.7}, Row{30, 164, 2.0}}) {
-    RandomCases random(kSeed);
+    RandomCases random(kCosineSeriesSeed);
     std::vector<double> ratios;
     for (int i = 0; i < 61; ++i) {
       const CosineCase c =
@@ -201,9 +196,9 @@ TEST(CosineSeries, WhatIsNotWantedIsNotExecuted) {
     fit_series(fit, unit_triangle<Recorded>(), normal, light, halfway, Recorded(), wanted);
     return recording.dataflow().counts();
   };
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
-  for (const SeriesFit fit : kFits) {
+  SCOPED_TRACE(kCosineSeriesSeed);
+  RandomCases random(kCosineSeriesSeed);
+  for (const SeriesFit fit : kCosineSeriesFits) {
     const OperationCounts both = counts(fit, {true, true});
     for (const SeriesWanted& one : {SeriesWanted{true, false}, SeriesWanted{false, true}}) {
       EXPECT_LT(counts(fit, one).multiply, both.multiply);
@@ -212,10 +207,10 @@ TEST(CosineSeries, WhatIsNotWantedIsNotExecuted) {
       const auto triangle = unit_triangle<double>();
       const auto all = fit_series(fit, triangle, c.normal, c.m, c.m, 19.0);
       const auto some = fit_series(fit, triangle, c.normal, c.m, c.m, 19.0, one);
-      const auto light = coefficients(one.light ? all.light : Quadratic<double>{});
-      const auto highlight = coefficients(one.highlight ? all.highlight : Quadratic<double>{});
-      EXPECT_EQ(coefficients(some.light), light);
-      EXPECT_EQ(coefficients(some.highlight), highlight);
+      const auto light = six(one.light ? all.light : Quadratic<double>{});
+      const auto highlight = six(one.highlight ? all.highlight : Quadratic<double>{});
+      EXPECT_EQ(six(some.light), light);
+      EXPECT_EQ(six(some.highlight), highlight);
     }
   }
 }

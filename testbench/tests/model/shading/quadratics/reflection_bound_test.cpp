@@ -9,8 +9,8 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 31;
-constexpr double kNoise = 1e-10;  // of double precision
+constexpr unsigned kReflectionBoundSeed = 31;
+constexpr double kReflectionBoundNoise = 1e-10;  // of double precision
 
 using Weights = std::array<double, 3>;  // barycentric coordinates
 
@@ -84,7 +84,7 @@ ReflectionForm form_of(bool point_light, bool local_viewer, Highlight highlight,
 
 class ReflectionBounds : public testing::TestWithParam<Case> {
  protected:
-  Random random_{kSeed};
+  Random random_{kReflectionBoundSeed};
   ReflectionTerms<double> terms_;
   Corners<double> normal_, eye_, light_;
 
@@ -142,11 +142,12 @@ TEST_P(ReflectionBounds, HoldForValuesAndForTheErrorsOfBothFits) {
       const Reflected<double> value = exact(w);
       const auto check = [&](double f, const ReflectionBound<double>& b, const Quadratic<double>& q,
                              double share) {
-        EXPECT_LE(f, b.high + kNoise);
-        EXPECT_GE(f, b.low - kNoise);
+        EXPECT_LE(f, b.high + kReflectionBoundNoise);
+        EXPECT_GE(f, b.low - kReflectionBoundNoise);
         const double error = std::fabs(q(w[1] - kThird, w[2] - kThird) - f);
-        EXPECT_LE(error, share * b.third + kNoise);
-        if (b.third < 1) nearest = std::max(nearest, error / (share * b.third + kNoise));
+        EXPECT_LE(error, share * b.third + kReflectionBoundNoise);
+        if (b.third < 1)
+          nearest = std::max(nearest, error / (share * b.third + kReflectionBoundNoise));
       };
       check(value.light, bound.light, six.light, kSixPointError);
       check(value.highlight, bound.highlight, six.highlight, kSixPointError);

@@ -4,25 +4,23 @@
 #include <gtest/gtest.h>
 
 #include "testbench/tests/model/shading/quadratics/reflection_cases.h"
+#include "testbench/tests/model/shading/six.h"
 
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 17;
-const std::array<SeriesFit, 4> kFits = {SeriesFit::taylor, SeriesFit::six_point,
-                                        SeriesFit::weighted, SeriesFit::focused};
+constexpr unsigned kReflectionSeriesSeed = 17;
+const std::array<SeriesFit, 4> kReflectionSeriesFits = {SeriesFit::taylor, SeriesFit::six_point,
+                                                        SeriesFit::weighted, SeriesFit::focused};
 
-std::array<double, 6> coefficients(const Quadratic<double>& q) {
-  return {q.t0, q.t1, q.t2, q.t3, q.t4, q.t5};
-}
 void expect_near(const Quadratic<double>& a, const Quadratic<double>& b, double tolerance) {
   for (std::size_t k = 0; k < 6; ++k) {
-    EXPECT_NEAR(coefficients(a)[k], coefficients(b)[k], tolerance) << "coefficient " << k;
+    EXPECT_NEAR(six(a)[k], six(b)[k], tolerance) << "coefficient " << k;
   }
 }
 void expect_finite(const CosineSeries<double>& series) {
   for (const auto& q : {series.light, series.highlight}) {
-    for (const double t : coefficients(q)) EXPECT_TRUE(std::isfinite(t));
+    for (const double t : six(q)) EXPECT_TRUE(std::isfinite(t));
   }
 }
 
@@ -58,8 +56,8 @@ ReflectionCase random_case(ReflectionCases& random, const Form& form, double tur
 // What is left of an equation after its second-degree series is of third degree: about an eighth
 // at half the distance. A wrong coefficient leaves a quarter, a half or all.
 TEST(ReflectionSeries, TaylorIsExactToSecondDegree) {
-  SCOPED_TRACE(kSeed);
-  ReflectionCases random(kSeed);
+  SCOPED_TRACE(kReflectionSeriesSeed);
+  ReflectionCases random(kReflectionSeriesSeed);
   for (const Form& form : general_forms()) {
     for (int i = 0; i < 50; ++i) {
       const ReflectionCase c = random_case(random, form, 20, random.uniform(1.5, 5));
@@ -94,8 +92,8 @@ TEST(ReflectionSeries, IsNearTheExactReflection) {
   };
   for (const Row& row : {Row{SeriesFit::taylor, 7, 14}, Row{SeriesFit::six_point, 1.7, 4.5},
                          Row{SeriesFit::weighted, 1.3, 3}, Row{SeriesFit::focused, 1.3, 2.6}}) {
-    SCOPED_TRACE(kSeed);
-    ReflectionCases random(kSeed);
+    SCOPED_TRACE(kReflectionSeriesSeed);
+    ReflectionCases random(kReflectionSeriesSeed);
     for (const Form& form : general_forms()) {
       for (int i = 0; i < 100; ++i) {
         const ReflectionCase c = random_case(random, form, 10, 5);
@@ -108,14 +106,15 @@ TEST(ReflectionSeries, IsNearTheExactReflection) {
 }
 
 TEST(ReflectionSeries, FitsLeaveLessErrorThanTaylor) {
-  SCOPED_TRACE(kSeed);
+  SCOPED_TRACE(kReflectionSeriesSeed);
   for (const Form& form : general_forms()) {
     std::array<std::vector<double>, 4> light, highlight;
-    ReflectionCases random(kSeed);
+    ReflectionCases random(kReflectionSeriesSeed);
     for (int i = 0; i < 101; ++i) {
       const ReflectionCase c = random_case(random, form, 20, 3, 60);
-      for (std::size_t fit = 0; fit < kFits.size(); ++fit) {
-        const Reflected<double> error = largest_errors(c, c.series(c.form(kFits[fit])));
+      for (std::size_t fit = 0; fit < kReflectionSeriesFits.size(); ++fit) {
+        const Reflected<double> error =
+            largest_errors(c, c.series(c.form(kReflectionSeriesFits[fit])));
         light[fit].push_back(error.light);
         highlight[fit].push_back(error.highlight);
       }
@@ -130,8 +129,8 @@ TEST(ReflectionSeries, FitsLeaveLessErrorThanTaylor) {
 
 // Light and eye the same at all corners: what the constant forms compute, by the general ones.
 TEST(ReflectionSeries, OfConstantVectorsIsTheCosines) {
-  SCOPED_TRACE(kSeed);
-  ReflectionCases random(kSeed);
+  SCOPED_TRACE(kReflectionSeriesSeed);
+  ReflectionCases random(kReflectionSeriesSeed);
   for (int i = 0; i < 300; ++i) {
     ReflectionCase c =
         random.reflection(LightType::point, Viewer::local, Highlight::halfway, 30, 3, 20);
@@ -140,7 +139,7 @@ TEST(ReflectionSeries, OfConstantVectorsIsTheCosines) {
     ReflectionCase constant = c;
     constant.light.type = LightType::directional;
     constant.scene.shading.viewer = Viewer::infinite;
-    for (const SeriesFit fit : kFits) {
+    for (const SeriesFit fit : kReflectionSeriesFits) {
       SCOPED_TRACE(testing::Message() << "fit " << static_cast<int>(fit) << ", case " << i);
       const CosineSeries<double> q = c.series(c.form(fit)), p = constant.series(constant.form(fit));
       // The fits solve a system that amplifies rounding.
@@ -152,8 +151,8 @@ TEST(ReflectionSeries, OfConstantVectorsIsTheCosines) {
 }
 
 TEST(ReflectionSeries, OfALightFarAwayIsTheDirectionalOne) {
-  SCOPED_TRACE(kSeed);
-  ReflectionCases random(kSeed);
+  SCOPED_TRACE(kReflectionSeriesSeed);
+  ReflectionCases random(kReflectionSeriesSeed);
   for (const Highlight highlight : {Highlight::halfway, Highlight::reflection}) {
     for (const Viewer viewer : {Viewer::infinite, Viewer::local}) {
       for (int i = 0; i < 100; ++i) {
@@ -162,7 +161,7 @@ TEST(ReflectionSeries, OfALightFarAwayIsTheDirectionalOne) {
             random.reflection(LightType::point, viewer, highlight, 20, kFar, 20);
         ReflectionCase infinite = c;
         infinite.light.type = LightType::directional;
-        for (const SeriesFit fit : kFits) {
+        for (const SeriesFit fit : kReflectionSeriesFits) {
           SCOPED_TRACE(testing::Message() << "fit " << static_cast<int>(fit) << ", case " << i);
           const CosineSeries<double> q = c.series(c.form(fit));
           const CosineSeries<double> p = infinite.series(infinite.form(fit));
@@ -175,8 +174,8 @@ TEST(ReflectionSeries, OfALightFarAwayIsTheDirectionalOne) {
 }
 
 TEST(ReflectionSeries, DoesNotDependOnTheLengthOfTheNormalsOrTheUnitOfDistance) {
-  SCOPED_TRACE(kSeed);
-  ReflectionCases random(kSeed);
+  SCOPED_TRACE(kReflectionSeriesSeed);
+  ReflectionCases random(kReflectionSeriesSeed);
   for (const Form& form : general_forms()) {
     for (int i = 0; i < 20; ++i) {
       const ReflectionCase c = random_case(random, form, 20, 3);
@@ -189,7 +188,7 @@ TEST(ReflectionSeries, DoesNotDependOnTheLengthOfTheNormalsOrTheUnitOfDistance) 
       }
       scaled.light.attenuation[1] /= kUnit;
       scaled.light.attenuation[2] /= kUnit * kUnit;
-      for (const SeriesFit fit : kFits) {
+      for (const SeriesFit fit : kReflectionSeriesFits) {
         SCOPED_TRACE(testing::Message() << form << ", fit " << static_cast<int>(fit));
         const CosineSeries<double> q = c.series(c.form(fit)), p = scaled.series(scaled.form(fit));
         expect_near(q.light, p.light, 1e-10);
@@ -201,8 +200,8 @@ TEST(ReflectionSeries, DoesNotDependOnTheLengthOfTheNormalsOrTheUnitOfDistance) 
 
 // Light and A^fold s of half the reference are twice and 2^fold times those of the reference.
 TEST(ReflectionSeries, TheReferenceIsAScale) {
-  SCOPED_TRACE(kSeed);
-  ReflectionCases random(kSeed);
+  SCOPED_TRACE(kReflectionSeriesSeed);
+  ReflectionCases random(kReflectionSeriesSeed);
   for (int i = 0; i < 100; ++i) {
     const ReflectionCase c =
         random.reflection(LightType::spot, Viewer::local, Highlight::halfway, 20, 3, 20, 10);
@@ -246,8 +245,8 @@ void expect_same_edge(const ReflectionCase& c, const L& light, const E& eye,
 }
 
 TEST(ReflectionSeries, SixPointSamplesAreTheSameToTheBitFromBothSidesOfAnEdge) {
-  SCOPED_TRACE(kSeed);
-  ReflectionCases random(kSeed);
+  SCOPED_TRACE(kReflectionSeriesSeed);
+  ReflectionCases random(kReflectionSeriesSeed);
   for (const Form& form : general_forms()) {
     for (int i = 0; i < 200; ++i) {
       const ReflectionCase c = random_case(random, form, 30, 2);
@@ -265,9 +264,9 @@ TEST(ReflectionSeries, SixPointSamplesAreTheSameToTheBitFromBothSidesOfAnEdge) {
 }
 
 TEST(ReflectionSeries, BehindASpotIsDark) {
-  SCOPED_TRACE(kSeed);
-  ReflectionCases random(kSeed);
-  for (const SeriesFit fit : kFits) {
+  SCOPED_TRACE(kReflectionSeriesSeed);
+  ReflectionCases random(kReflectionSeriesSeed);
+  for (const SeriesFit fit : kReflectionSeriesFits) {
     for (int i = 0; i < 50; ++i) {
       ReflectionCase c =
           random.reflection(LightType::spot, Viewer::local, Highlight::halfway, 20, 3, 20, 10);
@@ -288,8 +287,8 @@ TEST(ReflectionSeries, BehindASpotIsDark) {
 // A light or an eye on the surface, at a corner, at the middle of an edge and at the centre, and an
 // attenuation without bound there.
 TEST(ReflectionSeries, OnTheSurfaceIsANumber) {
-  SCOPED_TRACE(kSeed);
-  ReflectionCases random(kSeed);
+  SCOPED_TRACE(kReflectionSeriesSeed);
+  ReflectionCases random(kReflectionSeriesSeed);
   for (const Form& form : general_forms()) {
     for (const auto& [u, v] :
          {std::pair(0.0, 0.0), std::pair(0.5, 0.0), std::pair(1.0 / 3, 1.0 / 3)}) {
@@ -301,7 +300,7 @@ TEST(ReflectionSeries, OnTheSurfaceIsANumber) {
         to_light[k] -= c.at(c.to_light, u, v);
         eye[k] -= c.at(c.eye, u, v);
       }
-      for (const SeriesFit fit : kFits) {
+      for (const SeriesFit fit : kReflectionSeriesFits) {
         SCOPED_TRACE(testing::Message() << form << ", fit " << static_cast<int>(fit));
         const auto series = [&](const Corners<double>& l, const Corners<double>& e) {
           return reflection_series(c.form(fit), unit_triangle<double>(), c.normal, e, l, terms);
@@ -315,9 +314,9 @@ TEST(ReflectionSeries, OnTheSurfaceIsANumber) {
 }
 
 TEST(ReflectionSeries, OpposedLightAndEyeHaveNoHighlight) {
-  SCOPED_TRACE(kSeed);
-  ReflectionCases random(kSeed);
-  for (const SeriesFit fit : kFits) {
+  SCOPED_TRACE(kReflectionSeriesSeed);
+  ReflectionCases random(kReflectionSeriesSeed);
+  for (const SeriesFit fit : kReflectionSeriesFits) {
     ReflectionCase c =
         random.reflection(LightType::point, Viewer::local, Highlight::halfway, 20, 3, 20);
     for (std::size_t k = 0; k < 3; ++k) c.eye[k] = -c.to_light[k];

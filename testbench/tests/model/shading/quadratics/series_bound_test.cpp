@@ -12,10 +12,10 @@
 namespace phongpipe {
 namespace {
 
-constexpr int kCases = 4000;
+constexpr int kSeriesBoundCases = 4000;
 constexpr int kSteps = 30;  // of the grid a triangle is looked at on, corners and edges included
 // Double precision in some hundred operations on numbers near 1.
-constexpr double kNoise = 1e-12;
+constexpr double kSeriesBoundNoise = 1e-12;
 
 class SeriesBound : public testing::TestWithParam<unsigned> {
  protected:
@@ -63,7 +63,7 @@ double highest(const Quadratic<double>& q) {
 
 TEST_P(SeriesBound, IsNotExceededByAnySeries) {
   RandomCases random(GetParam());
-  for (int i = 0; i < kCases; ++i) {
+  for (int i = 0; i < kSeriesBoundCases; ++i) {
     SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", case " + std::to_string(i));
     const std::array<Vec, 3> n = normals(random, i, 120);
     LightInput<double> light;
@@ -78,13 +78,13 @@ TEST_P(SeriesBound, IsNotExceededByAnySeries) {
       const CosineSeries<double> series =
           fit_series(fit, unit_triangle<double>(), n, light.terms.to_light, light.terms.halfway,
                      light.terms.sharpness);
-      ASSERT_LE(highest(series.light), bounds.light.high + kNoise)
+      ASSERT_LE(highest(series.light), bounds.light.high + kSeriesBoundNoise)
           << "fit " << static_cast<int>(fit);
-      ASSERT_LE(highest(series.light.scaled(-1)), kNoise - bounds.light.low);
+      ASSERT_LE(highest(series.light.scaled(-1)), kSeriesBoundNoise - bounds.light.low);
       // Of a highlight whatever the plan's fit, that of six points is bounded.
       if (fit == SeriesFit::six_point) {
-        ASSERT_LE(highest(series.highlight), bounds.highlight.high + kNoise);
-        ASSERT_LE(highest(series.highlight.scaled(-1)), kNoise - bounds.highlight.low);
+        ASSERT_LE(highest(series.highlight), bounds.highlight.high + kSeriesBoundNoise);
+        ASSERT_LE(highest(series.highlight.scaled(-1)), kSeriesBoundNoise - bounds.highlight.low);
       }
     }
   }
@@ -93,7 +93,7 @@ TEST_P(SeriesBound, IsNotExceededByAnySeries) {
 // Each factor of the bound by itself, so that slack in one does not hide another's fault.
 TEST_P(SeriesBound, HoldsLengthsAndCosinesOfTheNormals) {
   RandomCases random(GetParam());
-  for (int i = 0; i < kCases; ++i) {
+  for (int i = 0; i < kSeriesBoundCases; ++i) {
     SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", case " + std::to_string(i));
     const std::array<Vec, 3> n = normals(random, i, 120);
     const Vec m = direction(random, i, n);
@@ -104,10 +104,10 @@ TEST_P(SeriesBound, HoldsLengthsAndCosinesOfTheNormals) {
       const Vec normal = n[0] * (1 - u - v) + n[1] * u + n[2] * v;
       const double cosine = normal.dot(m) / normal.norm();
       shortest = std::min(shortest, normal.norm());
-      ASSERT_LE(1 / normal.norm(), extent.inverse_shortest * (1 + kNoise));
-      ASSERT_GE(1 / normal.norm(), extent.inverse_longest * (1 - kNoise));
-      ASSERT_LE(cosine, range.high + kNoise);
-      ASSERT_GE(cosine, range.low - kNoise);
+      ASSERT_LE(1 / normal.norm(), extent.inverse_shortest * (1 + kSeriesBoundNoise));
+      ASSERT_GE(1 / normal.norm(), extent.inverse_longest * (1 - kSeriesBoundNoise));
+      ASSERT_LE(cosine, range.high + kSeriesBoundNoise);
+      ASSERT_GE(cosine, range.low - kSeriesBoundNoise);
     });
     // About the best of the edges' middles, which is a point of the triangle.
     double way = 1e9;
@@ -117,7 +117,7 @@ TEST_P(SeriesBound, HoldsLengthsAndCosinesOfTheNormals) {
       for (const Vec& corner : n) longest = std::max(longest, (corner - middle).norm());
       way = std::min(way, longest);
     }
-    EXPECT_GE(extent.turn * (1 + kNoise) + kNoise, way / shortest);
+    EXPECT_GE(extent.turn * (1 + kSeriesBoundNoise) + kSeriesBoundNoise, way / shortest);
   }
 }
 
@@ -125,7 +125,7 @@ TEST_P(SeriesBound, HoldsLengthsAndCosinesOfTheNormals) {
 TEST_P(SeriesBound, HoldsTheRemainderOfATaylorSeriesAboutAnyPoint) {
   RandomCases random(GetParam());
   double largest_share = 0;
-  for (int i = 0; i < kCases; ++i) {
+  for (int i = 0; i < kSeriesBoundCases; ++i) {
     SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", case " + std::to_string(i));
     const std::array<Vec, 3> n = normals(random, i, 120);
     const Vec m = direction(random, i, n);
@@ -147,7 +147,7 @@ TEST_P(SeriesBound, HoldsTheRemainderOfATaylorSeriesAboutAnyPoint) {
     for_each_point([&](double u, double v) {
       const Vec at = normal.a * (u - u0) + normal.b * (v - v0) + normal.c;
       const double error = std::fabs(series(u - u0, v - v0) - at.dot(m) / at.norm());
-      ASSERT_LE(error, remainder + kNoise) << "about (" << u0 << ", " << v0 << ")";
+      ASSERT_LE(error, remainder + kSeriesBoundNoise) << "about (" << u0 << ", " << v0 << ")";
       if (remainder > 1e-6) largest_share = std::max(largest_share, error / remainder);
     });
   }
@@ -160,7 +160,7 @@ TEST_P(SeriesBound, HoldsTheRemainderOfATaylorSeriesAboutAnyPoint) {
 // a. At 5°, 10° and 20° that is 0.003, 0.012 and 0.07; 0.002, 0.010 and 0.055 have been seen.
 TEST_P(SeriesBound, IsNearTheHighestCosineWhereNormalsTurnLittle) {
   RandomCases random(GetParam());
-  for (int i = 0; i < kCases; ++i) {
+  for (int i = 0; i < kSeriesBoundCases; ++i) {
     SCOPED_TRACE("seed " + std::to_string(GetParam()) + ", case " + std::to_string(i));
     const double degrees = random.uniform(0, 25), angle = degrees * kDegrees;
     const std::array<Vec, 3> n = random.normals(degrees);
@@ -176,7 +176,8 @@ TEST_P(SeriesBound, IsNearTheHighestCosineWhereNormalsTurnLittle) {
       most = std::max(most, normal.dot(light.terms.to_light) / normal.norm());
     });
     const double margin = bounds.light.high - most;
-    ASSERT_LE(margin, angle * angle / 4 + 0.9 * angle * angle * angle + kNoise) << degrees;
+    ASSERT_LE(margin, angle * angle / 4 + 0.9 * angle * angle * angle + kSeriesBoundNoise)
+        << degrees;
     ASSERT_LE(bounds.highlight.high, bounds.light.high) << "six points have the smaller norm";
   }
 }

@@ -11,8 +11,8 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kSeed = 11;
-constexpr int kCases = 500;
+constexpr unsigned kTenPointFitSeed = 11;
+constexpr int kTenPointFitCases = 500;
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -59,9 +59,9 @@ void expect_least_squares(const SixValues<double>& fit, const Values<double, kTe
 }
 
 TEST(TenPointFit, IsWeightedLeastSquares) {
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
-  for (int n = 0; n < kCases; ++n) {
+  SCOPED_TRACE(kTenPointFitSeed);
+  RandomCases random(kTenPointFitSeed);
+  for (int n = 0; n < kTenPointFitCases; ++n) {
     Values<double, kTenPoints> f, spread;
     for (std::size_t i = 0; i < kTenPoints; ++i) {
       f[i] = random.uniform(-1, 1);
@@ -72,9 +72,9 @@ TEST(TenPointFit, IsWeightedLeastSquares) {
 }
 
 TEST(SampledFits, ReproduceQuadratics) {
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
-  for (int n = 0; n < kCases; ++n) {
+  SCOPED_TRACE(kTenPointFitSeed);
+  RandomCases random(kTenPointFitSeed);
+  for (int n = 0; n < kTenPointFitCases; ++n) {
     Vector6 q;
     for (Eigen::Index i = 0; i < 6; ++i) q[i] = random.uniform(-1, 1);
     Values<double, kTenPoints> f, spread;
@@ -95,9 +95,9 @@ TEST(SampledFits, ReproduceQuadratics) {
 
 // The change of basis, on a triangle anywhere.
 TEST(BarycentricBasis, TakesItsSixValues) {
-  SCOPED_TRACE(kSeed);
-  RandomCases random(kSeed);
-  for (int n = 0; n < kCases; ++n) {
+  SCOPED_TRACE(kTenPointFitSeed);
+  RandomCases random(kTenPointFitSeed);
+  for (int n = 0; n < kTenPointFitCases; ++n) {
     std::array<double, 3> x, y;
     for (std::size_t i = 0; i < 3; ++i) {
       x[i] = random.uniform(-20, 20);

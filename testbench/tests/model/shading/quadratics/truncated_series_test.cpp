@@ -8,15 +8,12 @@
 #include <array>
 #include <cmath>
 
+#include "testbench/tests/model/shading/six.h"
+
 namespace phongpipe {
 namespace {
 
 using Series = Quadratic<double>;
-using Six = std::array<double, 6>;
-
-Six six(const Series& q) {
-  return {q.t0, q.t1, q.t2, q.t3, q.t4, q.t5};
-}
 
 constexpr int kSize = 1000;  // products of such numbers and sums of them are exact
 
