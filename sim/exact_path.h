@@ -46,8 +46,11 @@ class SpanTiming {
   }
   SpanCycles take(const TriangleWork& work) const {
     if (work.rows.front().is_exact()) return exact_path_->take(work);
-    return {context_.configuration.walker_triangle_cycles,
-            context_.configuration.walker_row_cycles};
+    const SpanCycles cycles = {context_.configuration.walker_triangle_cycles,
+                               context_.configuration.walker_row_cycles};
+    context_.result.walker_cycles +=
+        cycles.first + static_cast<Cycle>(work.rows.size() - 1) * cycles.next + 1;
+    return cycles;
   }
 
  private:

@@ -25,7 +25,8 @@ struct FrameContext {
   SetupOutcome set_up(const TriangleOrder& next, TriangleWork& work, Cycle& busy) {
     const SetupOutcome outcome = front_end.set_up(next.triangle(), next.pass(), work);
     if (outcome == SetupOutcome::nothing) return outcome;
-    const SetupTimes::Cost& cost = setup_times.of(work.setup.plan);
+    SetupTimes::Cost& cost = setup_times.of(work.setup.plan);
+    ++cost.triangles;
     busy += cost.cycles;
     result.setup_cycles += cost.cycles;
     result.setup_cycles_by_path[path_of(frame, work.setup)] +=
@@ -35,10 +36,11 @@ struct FrameContext {
   }
 
   // Cycles the framebuffer spends on pixel `stream_index` of the stream.
-  Cycle framebuffer_cycles(bool first_pass, bool taken, std::uint32_t stream_index) const {
+  Cycle framebuffer_cycles(bool first_pass, bool taken, std::uint32_t stream_index) {
     const Cycle cycles = !taken       ? configuration.framebuffer_test_cycles
                          : first_pass ? configuration.framebuffer_write_cycles
                                       : configuration.framebuffer_add_cycles;
+    result.framebuffer_cycles += cycles;
     if (options.stall_percent == 0) return cycles;
     const std::uint32_t random = scramble(stream_index * 2654435769U + options.stall_seed);
     const bool stalled = random % 100 < static_cast<std::uint32_t>(options.stall_percent);

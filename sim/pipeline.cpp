@@ -98,6 +98,9 @@ SimulationResult simulate(const FrameSetup& frame, const PipelineConfiguration& 
   } else {
     simulate_by_clock(context);
   }
+  for (const SetupTimes::Cost& cost : context.setup_times.known()) {
+    result.setup_uses.push_back({cost.plan, cost.triangles});
+  }
   return result;
 }
 

@@ -42,14 +42,28 @@ struct SimulationOptions {
   std::int64_t watchdog_cycles = 1'000'000;
 };
 
+// How often the setup engine carried out a plan.
+struct SetupUse {
+  SeriesPlan plan;
+  std::uint64_t triangles = 0;
+
+  static constexpr auto fields() {
+    using U = SetupUse;
+    return std::make_tuple(field("plan", &U::plan), field("triangles", &U::triangles));
+  }
+};
+
 // Counts of one simulation.
 struct SimulationCounts {
-  std::int64_t frame_cycles = 0;       // until the framebuffer has taken the last pixel
-  std::int64_t datapath_cycles = 0;    // until pixel_datapath has delivered the last pixel
-  std::int64_t setup_cycles = 0;       // in which the setup engine was busy
-  Ledger setup_cycles_by_path;         // the same cycles
+  std::int64_t frame_cycles = 0;     // until the framebuffer has taken the last pixel
+  std::int64_t datapath_cycles = 0;  // until pixel_datapath has delivered the last pixel
+  std::int64_t setup_cycles = 0;     // in which the setup engine was busy
+  Ledger setup_cycles_by_path;       // the same cycles
+  std::vector<SetupUse> setup_uses;
   std::int64_t exact_path_cycles = 0;  // in which exact_path was busy
   OperationCounts exact_path_operations;
+  // In which span_walker and framebuffer were busy with triangles and pixels, waits not included.
+  std::int64_t walker_cycles = 0, framebuffer_cycles = 0;
   std::int64_t rom_load_cycles = 0;
   // Cycles in which a ClockedDatapath held a pixel or was offered a span; 0 by_span without a
   // ClockedDatapath.
@@ -62,18 +76,20 @@ struct SimulationCounts {
 
   static constexpr auto fields() {
     using C = SimulationCounts;
-    return std::make_tuple(field("frame_cycles", &C::frame_cycles),
-                           field("datapath_cycles", &C::datapath_cycles),
-                           field("setup_cycles", &C::setup_cycles),
-                           field("setup_cycles_by_path", &C::setup_cycles_by_path),
-                           field("exact_path_cycles", &C::exact_path_cycles),
-                           field("exact_path_operations", &C::exact_path_operations),
-                           field("rom_load_cycles", &C::rom_load_cycles),
-                           field("datapath_busy_cycles", &C::datapath_busy_cycles),
-                           field("setup_operations", &C::setup_operations),
-                           field("pixel_operations", &C::pixel_operations),
-                           field("depth_additions", &C::depth_additions),
-                           field("modules", &C::modules), field("failure", &C::failure));
+    return std::make_tuple(
+        field("frame_cycles", &C::frame_cycles), field("datapath_cycles", &C::datapath_cycles),
+        field("setup_cycles", &C::setup_cycles),
+        field("setup_cycles_by_path", &C::setup_cycles_by_path),
+        field("setup_uses", &C::setup_uses), field("exact_path_cycles", &C::exact_path_cycles),
+        field("exact_path_operations", &C::exact_path_operations),
+        field("walker_cycles", &C::walker_cycles),
+        field("framebuffer_cycles", &C::framebuffer_cycles),
+        field("rom_load_cycles", &C::rom_load_cycles),
+        field("datapath_busy_cycles", &C::datapath_busy_cycles),
+        field("setup_operations", &C::setup_operations),
+        field("pixel_operations", &C::pixel_operations),
+        field("depth_additions", &C::depth_additions), field("modules", &C::modules),
+        field("failure", &C::failure));
   }
 };
 

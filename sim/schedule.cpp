@@ -68,12 +68,12 @@ Dataflow record_setup(const SeriesPlan& plan) {
   return recording.dataflow();
 }
 
-const SetupTimes::Cost& SetupTimes::of(const SeriesPlan& plan) {
-  for (const Cost& cost : known_) {
+SetupTimes::Cost& SetupTimes::of(const SeriesPlan& plan) {
+  for (Cost& cost : known_) {
     if (cost.plan == plan) return cost;
   }
   const Dataflow dataflow = record_setup(plan);
-  known_.push_back({plan, dataflow.counts(), schedule_cycles(dataflow, *units_)});
+  known_.push_back({plan, dataflow.counts(), schedule_cycles(dataflow, *units_), 0});
   return known_.back();
 }
 

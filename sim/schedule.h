@@ -29,8 +29,10 @@ class SetupTimes {
     SeriesPlan plan;
     OperationCounts operations;
     int cycles = 0;
+    std::uint64_t triangles = 0;  // that were set up so; counted by the caller
   };
-  const Cost& of(const SeriesPlan& plan);
+  Cost& of(const SeriesPlan& plan);
+  const std::deque<Cost>& known() const { return known_; }
 
  private:
   const PipelineConfiguration* units_;

@@ -54,11 +54,17 @@ std::vector<NamedCurve> draw_curves(const CompareCommandOptions& options, const 
             {"curvature", curvature_curve(Parts::full, kShininess, how)}};
   }
   if (options.curve == "exponent") return {{"exponent", exponent_curve(10, how)}};
-  const PipelineConfiguration units =
-      load_hardware(options.hardware.hardware, options.hardware.overrides).pipeline;
-  const auto on_units = [units](const OperationCounts& counts) { return clocks(counts, units); };
+  const Hardware hardware = load_hardware(options.hardware.hardware, options.hardware.overrides);
+  const PipelineConfiguration& units = hardware.pipeline;
+  const auto on_units = [&units](const OperationCounts& counts) { return clocks(counts, units); };
+  // Of one light and the default's channels, if no scene is given.
+  const std::string scene = options.scenes.empty() ? "sphere" : options.scenes.front();
+  const auto prepared =
+      std::make_shared<const PreparedScene>(load_named_scene(scene, options.hardware.overrides));
   return {{"size-diffuse", size_curve(Parts::diffuse, PowerKind::table, on_units, how)},
-          {"size", size_curve(Parts::full, PowerKind::table, on_units, how)}};
+          {"size", size_curve(Parts::full, PowerKind::table, on_units, how)},
+          {"size-blocks", block_curve(prepared, hardware, VerificationOptions().budget_ns)},
+          {"size-break-even", break_even_curve(units)}};
 }
 
 void write_curves(const CompareCommandOptions& options, Progress& progress) {

@@ -5,6 +5,7 @@
 
 #include "model/scene/input_error.h"
 #include "testbench/commands/options.h"
+#include "testbench/reports/verification_json.h"
 #include "testbench/reports/verification_report.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/system/output_file.h"

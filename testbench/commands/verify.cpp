@@ -10,6 +10,7 @@
 #include "testbench/commands/hard_cases.h"
 #include "testbench/commands/options.h"
 #include "testbench/reports/timeline_report.h"
+#include "testbench/reports/verification_json.h"
 #include "testbench/reports/verification_page.h"
 #include "testbench/reports/verification_report.h"
 #include "testbench/system/output_file.h"

@@ -85,12 +85,12 @@ std::vector<Metric> all_metrics() {
        [](const Result& r) { return count(r.accuracy.visible_pixels); }},
 
       {"rtl_mismatches", "/mismatches/model_rtl", "", kLess,
-       "pixels shaded by the RTL that are not the model's; the first only",
+       "pixels shaded by the RTL that are not the model's, counted up to 100",
        [](const Result& r) {
          return of_rtl(r, [](const ImplementationResult& rtl) { return rtl.stream_mismatches; });
        }},
       {"systemc_mismatches", "/mismatches/model_systemc", "", kLess,
-       "pixels shaded in SystemC that are not the model's; the first only",
+       "pixels shaded in SystemC that are not the model's, counted up to 100",
        [](const Result& r) { return count(r.systemc.stream_mismatches); }},
       {"rtl_frame_mismatches", "/mismatches/frame_rtl", "", kLess,
        "pixels of the final frame with the RTL that are not the model's",
@@ -125,6 +125,11 @@ std::vector<Metric> all_metrics() {
        [](const Result& r) -> MetricValue {
          return per_triangle(r, r.systemc.counts.setup_cycles);
        }},
+      {"walker_cycles", "/cycles/span_walker", "cycles", kLess, "in which span_walker was at work",
+       [](const Result& r) { return count(r.systemc.counts.walker_cycles); }},
+      {"framebuffer_cycles", "/cycles/framebuffer", "cycles", kLess,
+       "in which the framebuffer was at work",
+       [](const Result& r) { return count(r.systemc.counts.framebuffer_cycles); }},
       {"rom_load_cycles", "/cycles/rom_load", "cycles", kLess,
        "in which tables of highlights were loaded",
        [](const Result& r) { return count(r.systemc.counts.rom_load_cycles); }},
@@ -248,6 +253,22 @@ std::string metric_text(const MetricValue& value) {
   const std::size_t first = digits.front() == '-' ? 1 : 0;
   for (std::size_t at = digits.size(); at > first + 3; at -= 3) digits.insert(at - 3, ",");
   return digits;
+}
+
+void for_each_block_metric(const VerificationResult& r,
+                           const std::function<void(const Metric&, const MetricValue& own,
+                                                    const MetricValue& full)>& visit) {
+  VerificationResult full;
+  if (r.full_hardware) {
+    full.pixels = r.pixels;
+    full.configuration = {r.full_hardware->datapath, r.configuration};
+    full.clock = r.hardware.technology.clock(r.full_hardware->datapath);
+    full.area = r.hardware.technology.area(r.full_hardware->datapath);
+    full.systemc = r.full_hardware->systemc;
+  }
+  for (const Metric& metric : metrics()) {
+    if (metric.of_blocks) visit(metric, metric.value(r), metric.value(full));
+  }
 }
 
 std::string count_text(std::uint64_t count) {

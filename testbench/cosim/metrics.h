@@ -34,6 +34,11 @@ std::size_t metric_index(std::string_view name);
 std::optional<double> number_of(const MetricValue& value);
 // The value for people: whole numbers with separators, others with 4 digits, - for no value.
 std::string metric_text(const MetricValue& value);
+// Calls `visit` for the metrics of what the hardware consists of, with their values for the scene's
+// hardware and for hardware with every effect, if that was simulated.
+void for_each_block_metric(const VerificationResult& result,
+                           const std::function<void(const Metric&, const MetricValue& own,
+                                                    const MetricValue& full)>& visit);
 std::string count_text(std::uint64_t count);  // 1,234,567
 // Which pixels differ: "3 of 1,000 pixels, 2 of the final frame". `pixels`: of the stream.
 std::string mismatches_text(const ImplementationResult& found, std::uint64_t pixels);

@@ -6,6 +6,7 @@
 
 #include "model/scene/input_error.h"
 #include "model/scene/tool_error.h"
+#include "sim/setup_balance.h"
 #include "testbench/cosim/lockstep.h"
 #include "testbench/cosim/metrics.h"
 #include "testbench/cosim/stream_checker.h"
@@ -218,6 +219,44 @@ std::string VerificationResult::over_limit_text() const {
                      metric_text(static_cast<std::int64_t>(pixels)), pixels == 1 ? "" : "s",
                      options.max_error_lsb.value_or(AccuracyOptions().limit_lsb),
                      accuracy.total.largest_lsb);
+}
+
+constexpr std::string_view kSetupEngine = "setup_engine";
+
+std::vector<BlockLoad> VerificationResult::block_loads() const {
+  const SimulationCounts& counts = systemc.counts;
+  std::vector<BlockLoad> loads = {
+      {kSetupEngine, counts.setup_cycles},
+      {"span_walker", counts.walker_cycles},
+      {"pixel_datapath", static_cast<std::int64_t>(pixels) + counts.rom_load_cycles},
+      {"framebuffer", counts.framebuffer_cycles}};
+  if (certified_error_lsb) {
+    loads.insert(loads.begin() + 1, BlockLoad{"exact_path", counts.exact_path_cycles});
+  }
+  return loads;
+}
+
+BlockLoad VerificationResult::limiting_block() const {
+  const std::vector<BlockLoad> loads = block_loads();
+  return *std::max_element(loads.begin(), loads.end(), [](const BlockLoad& a, const BlockLoad& b) {
+    return a.cycles < b.cycles;
+  });
+}
+
+double VerificationResult::ns_per_pixel(const BlockLoad& load) const {
+  return clock.ns * static_cast<double>(load.cycles) / static_cast<double>(pixels);
+}
+
+std::optional<PipelineConfiguration> VerificationResult::balanced_units() const {
+  std::int64_t others = 0;
+  for (const BlockLoad& load : block_loads()) {
+    if (load.block != kSetupEngine) others = std::max(others, load.cycles);
+  }
+  return fewest_setup_units(systemc.counts.setup_uses, hardware.pipeline, others);
+}
+
+std::int64_t VerificationResult::least_setup_cycles() const {
+  return setup_cycles(systemc.counts.setup_uses, with_most_units(hardware.pipeline));
 }
 
 std::uint64_t VerificationResult::unit_cycles(ShadingPath path) const {

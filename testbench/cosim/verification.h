@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/fixed/prepared_frame.h"
@@ -66,6 +67,12 @@ struct FullHardwareResult {
   ImplementationResult systemc;
 };
 
+// Cycles in which a block is occupied by the frame, waits not included.
+struct BlockLoad {
+  std::string_view block;
+  std::int64_t cycles = 0;
+};
+
 struct VerificationResult {
   std::string scene;  // its name in messages
   int width = 0, height = 0;
@@ -116,6 +123,15 @@ struct VerificationResult {
   bool certificate_holds() const {
     return !certified_error_lsb || accuracy.total.largest_lsb <= *certified_error_lsb;
   }
+  // What each block of the pipeline is occupied for by the whole frame, in the order of the
+  // pipeline; exact_path only if it is built. The blocks work at the same time.
+  std::vector<BlockLoad> block_loads() const;
+  BlockLoad limiting_block() const;  // with the largest load
+  double ns_per_pixel(const BlockLoad& load) const;
+  // The pipeline with the fewest units of the setup engine with which another block limits the
+  // frame; empty if no number of units suffices.
+  std::optional<PipelineConfiguration> balanced_units() const;
+  std::int64_t least_setup_cycles() const;  // with as many units as there may be
   // Cycles of the units for the pixels of a path: of the setup engine, and one a pixel of
   // pixel_datapath or those of exact_path. Units work at the same time, so that the sum of all is
   // more than the frame takes.

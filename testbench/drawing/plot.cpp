@@ -34,7 +34,7 @@ constexpr std::array<const char*, 7> kMarkers = {"M-3.5 0a3.5 3.5 0 1 0 7 0a3.5 
                                                  "M-4 0H4M0 -4V4"};
 
 template <double PlotPoint::*kCoordinate>
-Axis axis_of(const Chart& chart) {
+PlotAxis axis_of(const Chart& chart) {
   constexpr bool kX = kCoordinate == &PlotPoint::x;
   const bool logarithmic = kX ? chart.log_x : chart.log_y;
   std::vector<double> values;
@@ -45,11 +45,11 @@ Axis axis_of(const Chart& chart) {
       }
     }
   }
-  if (values.empty()) return Axis(logarithmic ? 1 : 0, logarithmic ? 10 : 1, logarithmic);
+  if (values.empty()) return PlotAxis(logarithmic ? 1 : 0, logarithmic ? 10 : 1, logarithmic);
   std::sort(values.begin(), values.end());
   auto low = values.begin();
   while (logarithmic && *low < values.back() * std::pow(10, -kMostDecades)) ++low;
-  return Axis(*low, values.back(), logarithmic);
+  return PlotAxis(*low, values.back(), logarithmic);
 }
 
 class Drawing {
@@ -217,7 +217,7 @@ class Drawing {
   }
 
   const Chart& chart_;
-  Axis x_, y_;
+  PlotAxis x_, y_;
   Labels labels_;
   std::string out_;
 };

@@ -63,25 +63,25 @@ std::vector<double> axis_ticks(double low, double high, bool logarithmic) {
   return ticks;
 }
 
-Axis::Axis(double low, double high, bool logarithmic)
+PlotAxis::PlotAxis(double low, double high, bool logarithmic)
     : logarithmic_(logarithmic), ticks_(axis_ticks(low, high, logarithmic)) {
   low_ = scaled(ticks_.front());
   high_ = scaled(ticks_.back());
 }
 
-double Axis::scaled(double value) const {
+double PlotAxis::scaled(double value) const {
   return logarithmic_ ? std::log10(value) : value;
 }
 
-double Axis::place(double value) const {
+double PlotAxis::place(double value) const {
   return (scaled(value) - low_) / (high_ - low_);
 }
 
-bool Axis::below(double value) const {
+bool PlotAxis::below(double value) const {
   return logarithmic_ && (value <= 0 || scaled(value) < low_ - 2 * kFuzz);
 }
 
-std::vector<double> Axis::minor_ticks() const {
+std::vector<double> PlotAxis::minor_ticks() const {
   std::vector<double> ticks;
   for (double k = low_; logarithmic_ && k < high_ - 0.5; ++k) {
     for (int factor = 2; factor < 10; ++factor) ticks.push_back(std::pow(10, k) * factor);
@@ -89,7 +89,7 @@ std::vector<double> Axis::minor_ticks() const {
   return ticks;
 }
 
-std::string Axis::label(double tick) const {
+std::string PlotAxis::label(double tick) const {
   constexpr double kPlainFrom = 0.9e-4, kPlainTo = 1.1e5;
   if (!logarithmic_ || (tick > kPlainFrom && tick < kPlainTo)) return fmt::format("{:.10g}", tick);
   const double decade = std::floor(std::log10(tick) + kFuzz);

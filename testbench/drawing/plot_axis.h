@@ -19,10 +19,10 @@ std::vector<double> axis_ticks(double low, double high, bool logarithmic);
 bool usable(double value, bool logarithmic);
 
 // An axis for usable() values.
-class Axis {
+class PlotAxis {
  public:
   // Shows at least `low` to `high`, limited by kMostDecades.
-  Axis(double low, double high, bool logarithmic);
+  PlotAxis(double low, double high, bool logarithmic);
 
   const std::vector<double>& ticks() const { return ticks_; }
   std::vector<double> minor_ticks() const;  // lines without a label, on a logarithmic axis

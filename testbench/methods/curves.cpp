@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "model/shading/methods/lookup.h"
+#include "sim/schedule.h"
+#include "testbench/methods/operation_time.h"
 #include "testbench/methods/specimens.h"
 
 namespace phongpipe {
@@ -115,6 +117,11 @@ std::string y_label(const CurveOptions& options) {
   return fmt::format("largest error, LSB (median of {} triangles)", options.triangles);
 }
 
+// Rows of a triangle, which is half of a square.
+double rows_of(int pixels) {
+  return std::round(std::sqrt(2.0 * pixels));
+}
+
 }  // namespace
 
 Curve curvature_curve(Parts parts, double shininess, const CurveOptions& options) {
@@ -145,8 +152,7 @@ Curve curvature_curve(Parts parts, double shininess, const CurveOptions& options
 }
 
 double amortised_clocks(const MethodCosts& costs, int pixels, const ClockFunction& clocks) {
-  const double rows = std::round(std::sqrt(2.0 * pixels));  // of half a square
-  return (clocks(costs.triangle) + rows * clocks(costs.span)) / pixels +
+  return (clocks(costs.triangle) + rows_of(pixels) * clocks(costs.span)) / pixels +
          clocks(costs.pixel + costs.combine);
 }
 
@@ -166,6 +172,72 @@ Curve size_curve(Parts parts, PowerKind power, const ClockFunction& clocks,
           {static_cast<double>(pixels), amortised_clocks(costs, pixels, clocks), ""});
     }
     curve.series.push_back(std::move(series));
+  }
+  return curve;
+}
+
+Curve block_curve(const std::shared_ptr<const PreparedScene>& scene, const Hardware& hardware,
+                  double budget_ns) {
+  Curve curve;
+  curve.title = "Time of each block of the pipeline, " + scene->scene.source;
+  curve.x_label = "size of a triangle, pixels";
+  curve.y_label = "ns a pixel";
+  curve.log_x = curve.log_y = true;
+  const PipelineConfiguration& pipeline = hardware.pipeline;
+  const auto add = [&curve](std::string name, const std::function<double(int)>& ns) {
+    PlotSeries series = {std::move(name), {}};
+    for (const int pixels : decade_steps({1, 2, 3, 5, 7}, kLargestTriangle)) {
+      series.points.push_back({static_cast<double>(pixels), ns(pixels), ""});
+    }
+    curve.series.push_back(std::move(series));
+  };
+  SetupTimes times(pipeline);
+  double clock_ns = 0;
+  for (std::size_t i = 0; i < series_fit_names().size(); ++i) {
+    SetupPolicy policy = hardware.setup;
+    policy.series_fit = static_cast<SeriesFit>(i);
+    const PreparedFrame frame(scene, hardware.formats, policy);
+    clock_ns = hardware.technology.clock(frame.setup.configuration).ns;
+    const std::uint32_t material = frame.geometry().triangles.front().material;
+    const double cycles = times.of(frame.setup.material(0, material).plan).cycles;
+    add(fmt::format("setup_engine, {}", series_fit_names()[i]),
+        [=](int pixels) { return clock_ns * cycles / pixels; });
+  }
+  add("span_walker", [&](int pixels) {
+    const double rows = rows_of(pixels);
+    return clock_ns *
+           (pipeline.walker_triangle_cycles + (rows - 1) * pipeline.walker_row_cycles + 1) / pixels;
+  });
+  add("pixel_datapath", [&](int) { return clock_ns; });
+  add("framebuffer", [&](int) { return clock_ns * pipeline.framebuffer_write_cycles; });
+  add("budget", [&](int) { return budget_ns; });
+  return curve;
+}
+
+Curve break_even_curve(const PipelineConfiguration& units) {
+  Curve curve;
+  curve.title = "Time of a series over that of shading each pixel anew; it pays below 1";
+  curve.x_label = "size of a triangle, pixels";
+  curve.y_label = "ratio of times, set-up included";
+  curve.log_x = curve.log_y = true;
+  const auto costs = [](const char* name) {
+    return find_shading_method(name)->costs(Parts::full, PowerKind::table);
+  };
+  const std::pair<const char*, ClockFunction> machines[] = {
+      {"sequential", sequential_operations},
+      {"shared units", [&units](const OperationCounts& counts) { return clocks(counts, units); }}};
+  for (const auto& [machine, clocks] : machines) {
+    for (const char* series : {"taylor", "weighted"}) {
+      for (const char* rival : {"phong", "duff"}) {
+        PlotSeries line = {fmt::format("{} over {}, {}", series, rival, machine), {}};
+        for (const int pixels : decade_steps({1, 2, 3, 5, 7}, kLargestTriangle)) {
+          const double ratio = amortised_clocks(costs(series), pixels, clocks) /
+                               amortised_clocks(costs(rival), pixels, clocks);
+          line.points.push_back({static_cast<double>(pixels), ratio, ""});
+        }
+        curve.series.push_back(std::move(line));
+      }
+    }
   }
   return curve;
 }

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "model/shading/methods/shading_method.h"
 #include "testbench/drawing/plot.h"
+#include "testbench/hardware/hardware.h"
 
 namespace phongpipe {
 
@@ -44,6 +46,18 @@ using ClockFunction = std::function<double(const OperationCounts&)>;
 Curve size_curve(Parts parts, PowerKind power, const ClockFunction& clocks,
                  const CurveOptions& options = {});
 double amortised_clocks(const MethodCosts& costs, int pixels, const ClockFunction& clocks);
+
+// Nanoseconds a pixel that each block of the pipeline is occupied by a triangle of 1 to 10,000
+// pixels under the scene's first light, by itself: blocks work at the same time, so that the
+// highest curve is what a frame of such triangles takes. The setup engine once for each fit of the
+// series; the scene's first material.
+Curve block_curve(const std::shared_ptr<const PreparedScene>& scene, const Hardware& hardware,
+                  double budget_ns);
+
+// Time of full Phong shading by a series over that by a method that shades each pixel anew, for
+// triangles of 1 to 10,000 pixels: below 1 the series pays. On a processor that executes one
+// operation after the other, as the paper counts, and on the hardware's shared units.
+Curve break_even_curve(const PipelineConfiguration& units);
 
 // The least triangle size in pixels, within the range of size_curve, from which `method` takes less
 // time than `other`; empty if there is none.

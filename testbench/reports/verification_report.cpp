@@ -6,9 +6,8 @@
 
 #include <cmath>
 
-#include "testbench/cosim/metrics_json.h"
+#include "testbench/cosim/metrics.h"
 #include "testbench/system/process.h"
-#include "testbench/system/record_json.h"
 #include "testbench/system/terminal.h"
 
 namespace phongpipe {
@@ -59,20 +58,6 @@ std::string heading(const Page& page, const VerificationResult& r) {
                      r.width, r.height, count_text(r.pixels), r.hardware.name,
                      configuration_hash(r.hardware).substr(0, 8),
                      errors.empty() ? "" : "; " + page.toned(Tone::warning, errors));
-}
-
-// The block that has the most to do.
-std::string_view limiting_block(const VerificationResult& r) {
-  const SimulationCounts& counts = r.systemc.counts;
-  // Without RTL only the cycles of pixels and tables are known.
-  const std::int64_t busy = r.rtl ? r.rtl->counts.datapath_busy_cycles
-                                  : static_cast<std::int64_t>(r.pixels) + counts.rom_load_cycles;
-  if (counts.exact_path_cycles >= std::max(busy, counts.setup_cycles)) return "exact_path";
-  if (counts.setup_cycles >= busy) return "setup";
-  // A datapath that is occupied for longer than its pixels and tables take waits for its output.
-  const auto own = static_cast<double>(r.pixels) + static_cast<double>(counts.rom_load_cycles);
-  constexpr double kNoticeable = 1.25;
-  return static_cast<double>(busy) > kNoticeable * own ? "framebuffer" : "pixel_datapath";
 }
 
 std::pair<std::string_view, double> largest_link(const Accuracy& a) {
@@ -185,7 +170,7 @@ std::string time_text(const Page& page, const VerificationResult& r) {
                      r.within_budget() ? frame : page.toned(Tone::bad, frame + ", OVER BUDGET"),
                      r.clock.ns, kind_text(r.clock),
                      r.rtl ? fmt::format("datapath {:.2f}; ", r.datapath_ns_per_pixel()) : "",
-                     limiting_block(r));
+                     r.limiting_block().block);
 }
 
 std::string error_text(const VerificationResult& r) {
@@ -244,22 +229,6 @@ void report_warnings(Page& page, const VerificationResult& r) {
   }
 }
 
-// The metrics by which hardware for the scene and hardware with everything are compared.
-template <typename Visit>
-void for_each_block_metric(const VerificationResult& r, Visit visit) {
-  VerificationResult full;
-  if (r.full_hardware) {
-    full.pixels = r.pixels;
-    full.configuration = {r.full_hardware->datapath, r.configuration};
-    full.clock = r.hardware.technology.clock(r.full_hardware->datapath);
-    full.area = r.hardware.technology.area(r.full_hardware->datapath);
-    full.systemc = r.full_hardware->systemc;
-  }
-  for (const Metric& metric : metrics()) {
-    if (metric.of_blocks) visit(metric, metric.value(r), metric.value(full));
-  }
-}
-
 void report_effects(Page& page, const VerificationResult& r) {
   page.plain("effects");
   page.line("used", fmt::format("{}", fmt::join(r.effects.used, ", ")));
@@ -280,6 +249,34 @@ void report_effects(Page& page, const VerificationResult& r) {
         page.plain(fmt::format("  {:<27} {:>14} {:>14} {:+5.0f} %", metric.name, metric_text(own),
                                metric_text(full), percent == 0 ? 0.0 : percent));
       });
+}
+
+// How far each block is from the budget, and what would balance them.
+void report_blocks(Page& page, const VerificationResult& r) {
+  page.plain("blocks");
+  for (const BlockLoad& load : r.block_loads()) {
+    const double ns = r.ns_per_pixel(load), slack_ns = r.options.budget_ns - ns;
+    const std::string slack = fmt::format("slack {:8.2f} ns", slack_ns);
+    page.plain(fmt::format("  {:<14} {:>13} cycles {:8.2f} ns a pixel, {}{}", load.block,
+                           count_text(static_cast<std::uint64_t>(load.cycles)), ns,
+                           slack_ns < 0 ? page.toned(Tone::bad, slack) : slack,
+                           load.block == r.limiting_block().block ? ", limits the frame" : ""));
+  }
+  page.plain(fmt::format("  {:<14} {}", "clock",
+                         r.clock.limited_by.empty() ? "what limits it is not known"
+                                                    : "limited by " + r.clock.limited_by));
+  const auto units_text = [](const PipelineConfiguration& p) {
+    return fmt::format("{} adders, {} multipliers, {} 1/√, {} power", p.adders.count,
+                       p.multipliers.count, p.rsqrt.count, p.power.count);
+  };
+  const auto balanced = r.balanced_units();
+  page.plain(fmt::format(
+      "  {:<14} {}", "balance",
+      balanced ? fmt::format("the setup engine keeps up from {} on; it has {}",
+                             units_text(*balanced), units_text(r.hardware.pipeline))
+               : fmt::format("no number of units lets the setup engine keep up: triangles are set "
+                             "up one after the other, at best in {} cycles",
+                             count_text(static_cast<std::uint64_t>(r.least_setup_cycles())))));
 }
 
 void report_details(Page& page, const VerificationResult& r) {
@@ -306,43 +303,13 @@ void report_details(Page& page, const VerificationResult& r) {
                          c.specular_fraction_bits, c.series(), c.rom_words(),
                          c.channels * c.rom_data_bits));
   if (!r.certified_error_lsb) report_ledger(page, r);
+  report_blocks(page, r);
   report_effects(page, r);
   page.plain("metrics");
   for (const Metric& metric : metrics()) {
     page.plain(fmt::format("  {:<27} {:>14} {:<6} {}", metric.name, metric_text(metric.value(r)),
                            metric.unit, metric.meaning));
   }
-}
-
-ordered_json effects_json(const VerificationResult& r) {
-  ordered_json json = {{"used", r.effects.used}, {"left_out", r.effects.left_out}};
-  for_each_block_metric(r,
-                        [&](const Metric& metric, const MetricValue& own, const MetricValue& full) {
-                          json["built"][std::string(metric.name)] = own;
-                          if (r.full_hardware) json["everything"][std::string(metric.name)] = full;
-                        });
-  json["built"]["modules"] = r.systemc.counts.modules;
-  if (r.full_hardware) {
-    json["everything"]["modules"] = r.full_hardware->systemc.counts.modules;
-    json["everything"]["frame_mismatches"] = r.full_hardware->systemc.frame_mismatches;
-  }
-  return json;
-}
-
-ordered_json configuration_json(const VerificationResult& r) {
-  ordered_json json = {{"hardware", r.hardware.name}, {"technology", r.hardware.technology.name}};
-  for (const Setting<Hardware>& setting : hardware_settings()) {
-    auto& value = json[std::string(setting.section)][std::string(setting.key)];
-    if (setting.per_unit > 1) {
-      value = setting.in_units(setting.get(r.hardware));
-    } else if (setting.choices.empty()) {
-      value = setting.get(r.hardware);
-    } else {
-      value = setting.value(r.hardware);
-    }
-  }
-  json["datapath"]["channels"] = r.configuration.channels;
-  return json;
 }
 
 }  // namespace
@@ -382,87 +349,6 @@ std::string report_text(const VerificationResult& r, const ReportStyle& style) {
 }
 
 // Where implementations part: null if they do not.
-ordered_json divergence_json(const VerificationResult& r, const std::string& capsule) {
-  ordered_json json;
-  const ImplementationResult* const found = r.diverging();
-  if (found == nullptr) return json;
-  if (found->first_divergence) {
-    const Divergence& d = *found->first_divergence;
-    json = {{"triangle", d.triangle},
-            {"x", d.model.x},
-            {"y", d.model.y},
-            {"cycle", d.cycle},
-            {"block", "pixel_datapath"},
-            {"signal", "pixel_color"},
-            {"model", d.model.color},
-            {"other", d.found.color}};
-  }
-  if (found->signal_divergence) {
-    const SignalDivergence& s = *found->signal_divergence;
-    json["cycle"] = s.cycle;
-    json["block"] = s.block;
-    json["signal"] = s.signal;
-    json["model"] = s.model;
-    json["other"] = s.other;
-  }
-  json["capsule"] = capsule.empty() ? ordered_json() : ordered_json(capsule);
-  return json;
-}
-
-ordered_json report_json(const VerificationResult& r, const std::string& capsule) {
-  ordered_json json = {
-      {"scene", r.scene},
-      {"passed", r.passed()},
-      {"configuration", configuration_json(r)},
-      {"clock_kind", name(r.clock.kind)},
-      {"clock_limited_by", r.clock.limited_by},
-      {"configuration_hash", configuration_hash(r.hardware)},
-      {"detail", r.options.detail == Detail::cycle ? "cycle" : "span"},
-      {"stall_percent", r.options.stall_percent},
-      {"seed", r.options.seed},
-      {"budget_ns", r.options.budget_ns},
-      {"within_budget", r.within_budget()},
-      {"max_error_limit_lsb",
-       r.options.max_error_lsb ? ordered_json(*r.options.max_error_lsb) : ordered_json()},
-      {"max_error_lsb", r.accuracy.total.largest_lsb},
-      {"within_error", r.within_error()},
-      {"clock_source", r.hardware.technology.source},
-      {"limited_by", limiting_block(r)},
-      {"notes", r.notes}};
-  for (const Metric& metric : metrics()) {
-    if (metric.json.empty()) continue;
-    json[ordered_json::json_pointer(std::string(metric.json))] = metric.value(r);
-  }
-  for (std::size_t i = 0; i < kShadingPaths; ++i) {
-    json["ledger_cycles"][std::string(kShadingPathNames[i])] =
-        r.unit_cycles(static_cast<ShadingPath>(i));
-  }
-  json["worst_pixels"] = ordered_json::array();
-  for (const WorstPixel& worst : r.worst_pixels) {
-    ordered_json pixel = {{"x", worst.x},
-                          {"y", worst.y},
-                          {"error_lsb", worst.error_lsb},
-                          {"triangle", worst.triangle},
-                          {"largest_part", worst.largest_part}};
-    for (int c = 0; c < r.configuration.channels; ++c) {
-      pixel["output"].push_back(worst.output[c]);
-      pixel["exact_lsb"].push_back(worst.exact[c]);
-    }
-    json["worst_pixels"].push_back(pixel);
-  }
-  json["first_divergence"] = divergence_json(r, capsule);
-  json["effects"] = effects_json(r);
-  const auto add = [&json](const char* name, const ImplementationResult& found) {
-    ordered_json& entry = json["implementations"][name];
-    entry["failure"] =
-        found.counts.failure.empty() ? ordered_json() : ordered_json(found.counts.failure);
-    entry["first_divergence"] = nlohmann::json(found.first_divergence);
-  };
-  add("systemc", r.systemc);
-  if (r.rtl) add("rtl", *r.rtl);
-  return json;
-}
-
 std::array<std::filesystem::path, 3> picture_files(const std::filesystem::path& folder,
                                                    const std::string& name) {
   return {folder / (name + "-result.png"), folder / (name + "-exact.png"),

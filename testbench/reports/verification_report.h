@@ -1,9 +1,8 @@
-// Reports of a verification: on the screen, as JSON for programs, and as pictures.
+// Reports of a verification: on the screen, and as pictures.
 #pragma once
 
 #include <array>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -24,10 +23,6 @@ struct ReportStyle {
 // detail. With `verbose`, all measurements follow.
 std::string report_text(const VerificationResult& result, const ReportStyle& style);
 std::string report_line(const VerificationResult& result, const ReportStyle& style);
-
-// `capsule`: file that shows its divergence again, or empty.
-nlohmann::ordered_json report_json(const VerificationResult& result,
-                                   const std::string& capsule = {});
 
 // name-result.png, name-exact.png and name-error.png.
 std::array<std::filesystem::path, 3> picture_files(const std::filesystem::path& folder,

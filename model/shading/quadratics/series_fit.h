@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "model/shading/fields.h"
+
 namespace phongpipe {
 
 enum class SeriesFit {
@@ -22,9 +24,14 @@ struct Reflected {
 // Which of the two series are computed; no operation of the other is executed.
 struct SeriesWanted {
   bool light = true, highlight = true;
+
+  static constexpr auto fields() {
+    using W = SeriesWanted;
+    return std::make_tuple(field("light", &W::light), field("highlight", &W::highlight));
+  }
 };
 inline bool operator==(const SeriesWanted& a, const SeriesWanted& b) {
-  return a.light == b.light && a.highlight == b.highlight;
+  return equal_fields(a, b);
 }
 
 // In the order of SeriesFit.

@@ -125,7 +125,7 @@ TEST(Plot, LinesAreJoinedOnlyWhereAsked) {
   EXPECT_EQ(occurrences(svg(chart), "stroke-dasharray"), 0U);
 }
 
-TEST(Axis, LogarithmicTicksAreDecades) {
+TEST(PlotAxis, LogarithmicTicksAreDecades) {
   EXPECT_EQ(axis_ticks(1, 10000, true), (std::vector<double>{1, 10, 100, 1000, 10000}));
   EXPECT_EQ(axis_ticks(0.3, 120, true), (std::vector<double>{0.1, 1, 10, 100, 1000}));
   EXPECT_EQ(axis_ticks(5, 5, true), (std::vector<double>{1, 2, 5, 10}));
@@ -135,7 +135,7 @@ TEST(Axis, LogarithmicTicksAreDecades) {
   EXPECT_EQ(capped.back(), 100);
 }
 
-TEST(Axis, LinearTicksAreRoundAndCoverTheRange) {
+TEST(PlotAxis, LinearTicksAreRoundAndCoverTheRange) {
   EXPECT_EQ(axis_ticks(5, 90, false), (std::vector<double>{0, 20, 40, 60, 80, 100}));
   EXPECT_EQ(axis_ticks(-1, 1, false), (std::vector<double>{-1, -0.5, 0, 0.5, 1}));
   for (const double low : {-1e6, -3.0, 0.0, 0.7, 99.0}) {
@@ -149,11 +149,11 @@ TEST(Axis, LinearTicksAreRoundAndCoverTheRange) {
   }
 }
 
-TEST(Axis, LabelsAreShort) {
-  EXPECT_EQ(Axis(1e-6, 1e6, true).label(1e-6), "1e-6");
-  EXPECT_EQ(Axis(1, 1e4, true).label(1e4), "10000");
-  EXPECT_EQ(Axis(1e6, 1e7, true).label(2e6), "2e6");
-  EXPECT_EQ(Axis(0, 1, false).label(0.2 + 0.1), "0.3");
+TEST(PlotAxis, LabelsAreShort) {
+  EXPECT_EQ(PlotAxis(1e-6, 1e6, true).label(1e-6), "1e-6");
+  EXPECT_EQ(PlotAxis(1, 1e4, true).label(1e4), "10000");
+  EXPECT_EQ(PlotAxis(1e6, 1e7, true).label(2e6), "2e6");
+  EXPECT_EQ(PlotAxis(0, 1, false).label(0.2 + 0.1), "0.3");
 }
 
 TEST(Labels, DoNotOverlap) {

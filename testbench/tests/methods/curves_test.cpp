@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "testbench/cases/named_scene.h"
+#include "testbench/methods/operation_time.h"
 #include "testbench/methods/specimens.h"
 
 namespace phongpipe {
@@ -154,6 +156,36 @@ TEST(Curves, GouraudIsCheaperThanTaylorAtAnySize) {
     EXPECT_EQ(break_even_pixels(gouraud, taylor, clocks), 1);
     EXPECT_FALSE(break_even_pixels(taylor, taylor, clocks));
   }
+}
+
+TEST(Curves, BlocksOfThePipeline) {
+  const Hardware hardware = load_hardware("default", {"framebuffer.write_cycles=3"});
+  const auto scene = std::make_shared<const PreparedScene>(load_named_scene("sphere", {}));
+  const Curve curve = block_curve(scene, hardware, 100);
+  const double clock_ns = at(curve, "pixel_datapath", 1);
+  EXPECT_GT(clock_ns, 1);
+  EXPECT_EQ(at(curve, "pixel_datapath", 10000), clock_ns);
+  EXPECT_EQ(at(curve, "framebuffer", 100), 3 * clock_ns);
+  EXPECT_EQ(at(curve, "budget", 7), 100);
+  const double taylor = at(curve, "setup_engine, taylor", 1);
+  EXPECT_NEAR(at(curve, "setup_engine, taylor", 1000), taylor / 1000, 1e-9);
+  EXPECT_GT(taylor, 10 * clock_ns);
+  EXPECT_GT(at(curve, "setup_engine, weighted", 1), at(curve, "setup_engine, six-point", 1));
+  // A single pixel: two cycles before its row, and one for it.
+  EXPECT_NEAR(at(curve, "span_walker", 1), 3 * clock_ns, clock_ns + 1e-9);
+}
+
+TEST(Curves, BreakEvenIsWhereTheRatioIsOne) {
+  const PipelineConfiguration units;
+  const Curve curve = break_even_curve(units);
+  const auto size = break_even_pixels(costs("taylor", Parts::full), costs("duff", Parts::full),
+                                      sequential_operations);
+  ASSERT_TRUE(size.has_value());
+  const PlotSeries& line =
+      *std::find_if(curve.series.begin(), curve.series.end(),
+                    [](const PlotSeries& s) { return s.name == "taylor over duff, sequential"; });
+  for (const PlotPoint& point : line.points) EXPECT_EQ(point.y < 1, point.x >= *size) << point.x;
+  EXPECT_LT(at(curve, "weighted over phong, shared units", 10000), 1);
 }
 
 TEST(Curves, Exponent) {

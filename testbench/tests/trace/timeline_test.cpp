@@ -71,10 +71,17 @@ TEST(Timeline, NamesTrianglesOfTheScene) {
   }
 }
 
+// As `verify` tells it, from counts that are kept without a timeline.
 TEST(Timeline, TellsWhatLimitsTheFrame) {
   const auto limiting = [](const char* scene, const std::vector<std::string>& settings) {
-    return name(
-        limiting_module(record_timeline(prepared(scene), load_hardware("default", settings), {})));
+    const Hardware hardware = load_hardware("default", settings);
+    const std::string_view module =
+        name(limiting_module(record_timeline(prepared(scene), hardware, {})));
+    VerificationOptions options;
+    options.rtl = RtlToVerify::off;
+    options.pictures = false;
+    EXPECT_EQ(verify(prepared(scene), hardware, options).limiting_block().block, module);
+    return module;
   };
   EXPECT_EQ(limiting("sphere", {}), "setup_engine");
   EXPECT_EQ(limiting("sphere", {"span_walker.row_cycles=100"}), "span_walker");
