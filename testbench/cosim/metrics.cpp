@@ -125,11 +125,6 @@ std::vector<Metric> all_metrics() {
        [](const Result& r) -> MetricValue {
          return per_triangle(r, r.systemc.counts.setup_cycles);
        }},
-      {"walker_cycles", "/cycles/span_walker", "cycles", kLess, "in which span_walker was at work",
-       [](const Result& r) { return count(r.systemc.counts.walker_cycles); }},
-      {"framebuffer_cycles", "/cycles/framebuffer", "cycles", kLess,
-       "in which the framebuffer was at work",
-       [](const Result& r) { return count(r.systemc.counts.framebuffer_cycles); }},
       {"rom_load_cycles", "/cycles/rom_load", "cycles", kLess,
        "in which tables of highlights were loaded",
        [](const Result& r) { return count(r.systemc.counts.rom_load_cycles); }},
