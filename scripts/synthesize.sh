@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # synthesize.sh: places and routes the RTL in many configurations and writes the cards of the iCE40
-# devices in hw/technology (half an hour). synthesize.sh check: places and routes two presets and
+# devices in hw/technology (half an hour). synthesize.sh units: only the units of hw/units, the rest of
+# the cards stays (two minutes). synthesize.sh check: places and routes two presets and
 # fails where one is slower or larger than its card says.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -16,6 +17,8 @@ if [ "${1:-}" = check ]; then
     echo "synthesize.sh: verify --synthesize measures $measured, the card says $(luts)" >&2
     exit 1
   fi
+elif [ "${1:-}" = units ]; then
+  build/bin/synthesize_cards --units hw/technology
 else
   build/bin/synthesize_cards hw/technology
 fi

@@ -74,6 +74,8 @@ class DatapathRegisters : public ClockedDatapath {
   std::size_t queued() const { return queue_.size(); }
   // Free slots of the queue, as RTL counts them.
   int free_slots() const { return free_; }
+  // Whether the next pixel that enters is of another span.
+  bool between_spans() const { return last_.remaining <= 1; }
   // Words of a channel's table.
   const std::vector<std::int32_t>& table(std::size_t channel) const { return table_[channel]; }
 
@@ -112,14 +114,20 @@ struct DatapathSignal {
   std::string name;     // as "s5_address"
   int stage = 0;        // whose pixel it belongs to
   bool always = false;  // of the control: has a meaning even if no pixel is in the stage
-  int width = 1;        // bits
-  int fraction_bits = 0;  // of them, below one unit
+  bool only_first = false;  // has a meaning for the first pixel of a span only
+  int width = 1;            // bits
+  int fraction_bits = 0;    // of them, below one unit
   bool is_signed = false;
   std::string unit;    // of the value: "LSB", "address" (of the table), or empty for a plain number
   int rtl_lsb = 0;     // the bit of the RTL's signal that the register begins at
   std::string packed;  // name of the RTL's signal, if it is packed with others
   std::function<std::int64_t(const DatapathRegisters&)> value;
 
+  // Whether it has a meaning in this clock.
+  bool counts(const DatapathRegisters& registers) const {
+    const DatapathPixel& pixel = registers.in_stage(stage);
+    return always || (pixel.valid && (!only_first || pixel.step == 0));
+  }
   // "pixel_datapath.specular.rom".
   std::string block() const;
   std::string full_name() const { return block() + "." + name; }
@@ -127,7 +135,8 @@ struct DatapathSignal {
   double real(std::int64_t bits) const;
 };
 
-// All registers of a configuration that hold more than the one before them does, stage by stage.
+// The registers of a configuration that pixels pass through, stage by stage. Left out are the s0_
+// registers of what does not reach the next stage in every span, and those of the write ports.
 std::vector<DatapathSignal> datapath_signals(const DatapathConfiguration& configuration);
 
 }  // namespace phongpipe

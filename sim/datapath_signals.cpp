@@ -76,6 +76,10 @@ class SignalTable {
     add_flag(0, 3, "", "first", [](const Pixel& p) { return p.step == 0; });
     add_flag(1, 2, "", "restart", [](const Pixel& p) { return p.step <= 1; });
     add(0, "", "remaining", kLengthBits, [](const Pixel& p) { return p.remaining; });
+    add(0, "", "ending", 1, [](const Pixel& p) { return p.remaining == 2; });
+    DatapathSignal& open = add(0, "", "open", 1, [](const Pixel&) { return 0; });
+    open.value = [](const DatapathRegisters& r) -> std::int64_t { return r.between_spans(); };
+    open.always = true;
     const auto add_count = [this](int stage, const char* name, auto count) {
       DatapathSignal signal;
       signal.scope = "queue";
@@ -125,13 +129,26 @@ class SignalTable {
         return of(p).*part >> low;
       }).is_signed = true;
     };
+    whole(0, "start_v", &Series::term);
+    signals_.back().only_first = true;
     whole(1, "term", &Series::term);
     whole(1, "next_term", &Series::next_term);
     whole(1, "last_term", &Series::last_term);
+    // The carry of a sum of low bits is 1 if the sum is less than what was added. A sum that starts
+    // over, after `steps` pixels of a span, has none.
+    const auto carry = [&](int stage, std::int64_t Series::*sum, std::int64_t Series::*added,
+                           int steps) {
+      const std::int64_t mask = (std::int64_t{1} << low) - 1;
+      add(stage, scope, at(stage, "carry"), 1, [=](const Pixel& p) {
+        return p.step >= steps && (of(p).*sum & mask) < (of(p).*added & mask);
+      });
+    };
     lower(2, "difference_low", &Series::difference);
     upper(2, "term_high", &Series::term);
+    carry(2, &Series::difference, &Series::term, 2);
     upper(3, "difference_high", &Series::difference);
     lower(3, "v_low", &Series::v);
+    carry(3, &Series::v, &Series::difference, 1);
     whole(kSeriesStage, "v", &Series::v);
   }
   void add_all_series() {
@@ -167,6 +184,11 @@ class SignalTable {
       add(5, "specular.gate", "s5_negative", 1, [](const Pixel& p) { return p.gate.v < 0; });
       add(5, "specular.gate", "s5_zero", 1, [](const Pixel& p) { return p.gate.v == 0; });
     }
+    if (f_.rom_layout == RomLayout::plain) {
+      add_plain_table();
+    } else {
+      add_octave_tables();
+    }
     add(7, "specular", "s7_open", 1, [](const Pixel& p) { return p.open; });
     add(8, "", "s8_open", 1, [](const Pixel& p) { return p.open; });
     for (int c = 0; c < f_.channels; ++c) {
@@ -176,6 +198,56 @@ class SignalTable {
         add_word(c, "s8_increment", [i](const Pixel& p) { return p.increment[i]; });
       }
     }
+  }
+  // Words of a table on their way out of it, channel by channel. `packed`: the RTL's signal, in
+  // which they begin at `first_bit`. `place`: of them in the table.
+  template <typename Place>
+  void add_table_words(int stage, const std::string& scope, const char* name, const char* packed,
+                       int first_bit, Place place) {
+    for (int c = 0; c < f_.channels; ++c) {
+      DatapathSignal& word = add(stage, fmt::format("{}.channel[{}]", scope, c), at(stage, name),
+                                 f_.rom_data_bits, [](const Pixel&) { return 0; });
+      word.value = [=](const DatapathRegisters& r) -> std::int64_t {
+        return r.table(static_cast<std::size_t>(c))[place(r.in_stage(stage))];
+      };
+      in_units(word, "LSB", f_.rom_data_bits - kOutputBits, false);
+      word.packed = packed;
+      word.rtl_lsb = first_bit + c * f_.rom_data_bits;
+    }
+  }
+  // All banks of a plain table are read.
+  void add_plain_table() {
+    constexpr int kMostBankBits = 11;
+    const int bank_bits = std::min(f_.rom_address_bits, kMostBankBits);
+    const int banks = f_.rom_addresses() >> bank_bits;
+    const std::string scope = "specular.rom.plain";
+    for (int bank = 0; bank < banks; ++bank) {
+      const auto place = [=](const Pixel& p) {
+        return static_cast<std::size_t>(bank << bank_bits | (p.address & ((1 << bank_bits) - 1)));
+      };
+      const std::string own = fmt::format("{}.bank[{}]", scope, bank);
+      add_table_words(6, own, "word", "s6_word", 0, place);
+      add_table_words(7, own, "word", "s7_words", bank * f_.channels * f_.rom_data_bits, place);
+    }
+    for (int stage = 6; banks > 1 && stage <= 7; ++stage) {
+      add(stage, scope, at(stage, "bank"), f_.rom_address_bits - bank_bits,
+          [bank_bits](const Pixel& p) { return p.address >> bank_bits; });
+    }
+  }
+  void add_octave_tables() {
+    const std::string scope = "specular.rom.octave";
+    int place_bits = 0;
+    while (1 << place_bits < f_.rom_bases()) ++place_bits;
+    const auto base = [](const Pixel& p) { return p.places.base; };
+    add(6, scope, "s6_place", place_bits, base);
+    add_table_words(7, scope, "word", "s7_word", 0, base);
+    if (f_.rom_layout != RomLayout::bipartite) return;
+    const std::string second = scope + ".second_table";
+    const auto increment = [](const Pixel& p) { return p.places.increment.value_or(0); };
+    const auto bases = static_cast<std::size_t>(f_.rom_bases());
+    add(6, second, "s6_increment_place", place_bits,
+        [=](const Pixel& p) { return increment(p) - bases; });
+    add_table_words(7, second, "increment", "s7_increment", 0, increment);
   }
   template <typename Value>
   void add_word(int channel, const std::string& name, Value value) {
@@ -193,6 +265,15 @@ class SignalTable {
     const int width = f_.diffuse_width(), low = low_bits(width);
     add(4, scope, "s4_level_complement", width - 1, [c, width](const Pixel& p) {
       return ~p.level[c] & ((std::int64_t{1} << (width - 1)) - 1);
+    });
+    add(5, scope, "s5_level_complement", width - 1 - low, [c, width, low](const Pixel& p) {
+      return (~p.level[c] & ((std::int64_t{1} << (width - 1)) - 1)) >> low;
+    });
+    // diffuse > level, as far as the low bits tell: the carry of diffuse + ~level.
+    add(5, scope, "s5_low_above", 1, [c, low](const Pixel& p) {
+      const std::int64_t mask = (std::int64_t{1} << low) - 1;
+      const std::int64_t diffuse = p.diffuse[c].v;
+      return diffuse >= 0 && (diffuse & mask) > (p.level[c] & mask);
     });
     add(5, scope, "s5_diffuse", width - low, [c, low](const Pixel& p) {
       return p.diffuse[c].v >> low;

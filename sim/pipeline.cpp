@@ -74,7 +74,9 @@ void simulate_by_clock(FrameContext& context) {
 }  // namespace
 
 void stop_simulation() {
-  sc_core::sc_stop();
+  static bool stopped = false;  // one simulation a process
+  if (!stopped) sc_core::sc_stop();
+  stopped = true;
 }
 
 SimulationResult simulate(const FrameSetup& frame, const PipelineConfiguration& configuration,

@@ -33,6 +33,9 @@ class LineReader {
 
 std::string_view without_byte_order_mark(std::string_view text);  // of UTF-8
 std::string_view trimmed(std::string_view text);
+inline bool starts_with(std::string_view text, std::string_view prefix) {
+  return text.substr(0, prefix.size()) == prefix;
+}
 std::vector<std::string_view> split(std::string_view line, char separator);
 // The words between spaces and tabs; none is empty.
 std::vector<std::string_view> words(std::string_view line);

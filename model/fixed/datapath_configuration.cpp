@@ -100,16 +100,14 @@ void FrameConfiguration::check() const {
   }
 }
 
-std::vector<std::pair<std::string_view, int>> rtl_parameters(
-    const DatapathConfiguration& datapath) {
-  std::vector<std::pair<std::string_view, int>> parameters = {
-      {"CHANNELS", datapath.channels},
-      {"DIFFUSE", datapath.diffuse},
-      {"SPECULAR", datapath.specular},
-      {"DEPTH_CUE", datapath.depth_cue},
-      {"GATE", static_cast<int>(datapath.gate)},
-      {"SPECULAR_GUARD", datapath.specular_guard_bits},
-      {"ROM_LAYOUT", static_cast<int>(datapath.rom_layout)}};
+RtlParameters rtl_parameters(const DatapathConfiguration& datapath) {
+  RtlParameters parameters = {{"CHANNELS", datapath.channels},
+                              {"DIFFUSE", datapath.diffuse},
+                              {"SPECULAR", datapath.specular},
+                              {"DEPTH_CUE", datapath.depth_cue},
+                              {"GATE", static_cast<int>(datapath.gate)},
+                              {"SPECULAR_GUARD", datapath.specular_guard_bits},
+                              {"ROM_LAYOUT", static_cast<int>(datapath.rom_layout)}};
   for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
     if (!setting.rtl_parameter.empty()) {
       parameters.emplace_back(setting.rtl_parameter, setting.get(datapath));
@@ -118,13 +116,17 @@ std::vector<std::pair<std::string_view, int>> rtl_parameters(
   return parameters;
 }
 
-std::string rtl_parameters_text(const DatapathConfiguration& datapath) {
+std::string parameters_text(const RtlParameters& parameters) {
   std::string text;
-  for (const auto& [name, value] : rtl_parameters(datapath)) {
+  for (const auto& [name, value] : parameters) {
     if (!text.empty()) text += '-';
     text += std::string(name) + "=" + std::to_string(value);
   }
   return text;
+}
+
+std::string rtl_parameters_text(const DatapathConfiguration& datapath) {
+  return parameters_text(rtl_parameters(datapath));
 }
 
 }  // namespace phongpipe

@@ -163,10 +163,13 @@ inline double least_certified_error_lsb(const DatapathConfiguration& datapath) {
   return 0.5 + std::ldexp(0.5, -datapath.diffuse_fraction_bits) + kExactPathNoise;
 }
 
-// The parameters of pixel_datapath.sv, by name.
-std::vector<std::pair<std::string_view, int>> rtl_parameters(const DatapathConfiguration& datapath);
+// Parameters of a module by name.
+using RtlParameters = std::vector<std::pair<std::string_view, int>>;
+// Those of pixel_datapath.sv.
+RtlParameters rtl_parameters(const DatapathConfiguration& datapath);
 // "CHANNELS=1-DIFFUSE=1-…": names the RTL of a configuration in file names, messages, libraries and
 // technology cards.
+std::string parameters_text(const RtlParameters& parameters);
 std::string rtl_parameters_text(const DatapathConfiguration& datapath);
 
 }  // namespace phongpipe

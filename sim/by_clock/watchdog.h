@@ -49,7 +49,7 @@ class Watchdog : public sc_core::sc_module {
       if (moved != last) still = 0;
       last = moved;
     }
-    sc_core::sc_stop();
+    stop_simulation();
   }
 
   bool done() const {

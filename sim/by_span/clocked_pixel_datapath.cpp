@@ -32,7 +32,7 @@ void ClockedPixelDatapath::run() {
       context_.result.failure = driver_.misbehaviour(context_.options.watchdog_cycles);
       if (!context_.result.failure.empty()) {
         context_.result.failure += fmt::format(", at cycle {}", cycle);
-        sc_core::sc_stop();
+        stop_simulation();
         return;
       }
     }
@@ -43,7 +43,7 @@ void ClockedPixelDatapath::run() {
       // The modules before this one catch up, so that the queues are reported as they stand.
       for (std::size_t i = 0; i < 2 * spans_.depth(); ++i) wait(sc_core::SC_ZERO_TIME);
       context_.result.failure = stuck(cycle);
-      sc_core::sc_stop();
+      stop_simulation();
       return;
     }
   }

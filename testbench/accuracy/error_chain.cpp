@@ -90,8 +90,11 @@ class PassChain {
     }
     if (!is_present(full_plan_.specular) || !span.row.lit) return;
     const bool real_open = open(real, is_present(full_plan_.gate) ? real_.gate(x, y) : 0);
-    const Color real_highlight =
-        real_open ? full_highlight(real_.specular(x, y) + offset_) : Color(Color::Zero());
+    const double real_specular = real_.specular(x, y) + offset_;
+    // Where a normal vanishes, the coefficients are no numbers; such a series gives no light.
+    const Color real_highlight = real_open && std::isfinite(real_specular)
+                                     ? full_highlight(real_specular)
+                                     : Color(Color::Zero());
     light.polynomial += real_highlight;
     if (!span.highlight) {  // left out, as the table's words are 0
       light.rounded += real_highlight;

@@ -13,10 +13,6 @@
 namespace phongpipe {
 namespace {
 
-bool starts_with(std::string_view text, std::string_view prefix) {
-  return text.substr(0, prefix.size()) == prefix;
-}
-
 Scene scene_of_seed(const std::string& name, const std::vector<std::string>& overrides) {
   const auto seed = parse_integer(name.substr(kRandomScene.size()));
   if (!seed || *seed < 0) {

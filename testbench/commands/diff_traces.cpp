@@ -25,10 +25,7 @@ std::string scope_text(const std::string& scope) {
 
 std::string comparison_text(const TraceComparison& c) {
   std::string text = fmt::format(
-      "{}  {} and {}: {} pixels with {} signals each{}\n",
-      c.first           ? "DIFFERENT"
-      : c.compared == 0 ? "DIFFERENT"
-                        : "SAME",
+      "{}  {} and {}: {} pixels with {} signals each{}\n", c.same() ? "SAME" : "DIFFERENT",
       printable(scope_text(c.a_scope)), printable(scope_text(c.b_scope)), c.compared, c.signals,
       c.compared == 0 && !c.first ? ", for they have no pixel in common" : "");
   if (c.first) {

@@ -161,10 +161,10 @@ int trace(const TraceCommandOptions& options) {
   for (const TraceMarker& marker : recorded.markers) {
     text += fmt::format("  marker   {} in cycle {}\n", marker.name, marker.cycle);
   }
-  const std::string name = shell_word(printable(options.file.filename().string()));
+  const std::string name = shell_word(printable(options.file.string()));
   text += fmt::format("  view     gtkwave {} {}   or   surfer {} -c {}\n", name,
-                      shell_word(printable(gtkwave.filename().string())), name,
-                      shell_word(printable(surfer.filename().string())));
+                      shell_word(printable(gtkwave.string())), name,
+                      shell_word(printable(surfer.string())));
   print_or_throw(text);
   return 0;
 }

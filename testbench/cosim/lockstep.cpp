@@ -50,7 +50,7 @@ std::uint64_t Lockstep::pixel_in(int stage) const {
 
 void Lockstep::compare_registers() {
   for (const Register& r : registers_) {
-    if (!r.signal.always && !model_.in_stage(r.signal.stage).valid) continue;
+    if (!r.signal.counts(model_)) continue;
     const std::int64_t model = r.signal.value(model_), other = r.rtl.value();
     if (model == other) continue;
     differs(pixel_in(r.signal.stage),
@@ -108,6 +108,13 @@ std::optional<SignalDivergence> Lockstep::found() const {
       [](const auto& a, const auto& b) { return a.second.cycle < b.second.cycle; });
   if (earliest == differences_.end()) return std::nullopt;
   return earliest->second;
+}
+
+std::optional<SignalDivergence> Lockstep::found_in_pixel() const {
+  if (!stream_index_) return std::nullopt;
+  const auto difference = differences_.find(*stream_index_);
+  if (difference == differences_.end()) return std::nullopt;
+  return difference->second;
 }
 
 bool Lockstep::complete() const {
@@ -192,11 +199,11 @@ std::optional<SignalDivergence> find_signal_divergence(
     const std::optional<Divergence>& pixel) {
   Child child([&] {
     std::optional<SignalDivergence> found;
-    if (pixel && !pixel->missing && output_never_waits(pipeline, simulation)) {
+    if (pixel && !pixel->missing) {
       const std::unique_ptr<RtlDatapath> rtl = make_rtl();
       found = find_in_span(frame, *rtl, *pixel);
     }
-    if (!found) {
+    if (!found || !output_never_waits(pipeline, simulation)) {
       const std::unique_ptr<RtlDatapath> rtl = make_rtl();
       std::optional<std::uint64_t> stream_index;
       if (pixel) stream_index = pixel->stream_index;
@@ -206,7 +213,11 @@ std::optional<SignalDivergence> find_signal_divergence(
       options.datapath = &lockstep;
       options.observe = [](const ShadedPixel*, const std::int64_t*, std::size_t) {};
       simulate(frame, pipeline, options);
+      // The span alone shows the fault, so that no other pixel is the cause; its cycle is not known
+      // where the output waits.
+      const bool in_span = found.has_value();
       found = lockstep.found();
+      if (in_span && lockstep.found_in_pixel()) found = lockstep.found_in_pixel();
     }
     return nlohmann::json(found).dump();
   });

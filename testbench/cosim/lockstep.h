@@ -30,6 +30,8 @@ class Lockstep : public ClockedDatapath {
 
   // Whether enough is known: something differs, and the pixel that does has been delivered.
   bool complete() const;
+  // The earliest difference of the pixel that differs, if there is one and it is known.
+  std::optional<SignalDivergence> found_in_pixel() const;
   // The earliest difference; of several in one clock, the one in the earliest stage.
   std::optional<SignalDivergence> found() const;
 

@@ -1,6 +1,7 @@
 // synthesize_cards FOLDER: places and routes pixel_datapath in many configurations and writes the
 // technology cards of the iCE40 devices to FOLDER.
 // synthesize_cards --fit FOLDER: writes the installed cards there, with their models fitted anew.
+// synthesize_cards --units FOLDER: the same, with the units of hw/units/ placed and routed anew.
 // synthesize_cards --check: places and routes the presets again; fails where one is slower or
 // larger than its card says.
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 #include "testbench/hardware/hardware.h"
 #include "testbench/synthesis/fitted_model.h"
 #include "testbench/synthesis/place_and_route.h"
+#include "testbench/synthesis/unit_targets.h"
 #include "testbench/system/installation.h"
 #include "testbench/system/output_file.h"
 
@@ -115,7 +117,16 @@ std::string model_text(const char* name, const FittedModel& model) {
 struct Designs {
   std::vector<DatapathConfiguration> configurations;
   std::vector<MeasuredDesign> measured;
+  std::vector<MeasuredUnit> units;
 };
+
+std::string design_text(const MeasuredDesign& d) {
+  return fmt::format(
+      "parameters = \"{}\"\nclock_ns = {:.2f}\nslowest_ns = {:.2f}\nlimited_by = \"{}\"\n"
+      "luts = {}\nregisters = {}\ncarries = {}\nblock_rams = {}\n",
+      d.parameters, d.clock_ns, d.slowest_ns, d.limited_by, d.luts, d.registers, d.carries,
+      d.block_rams);
+}
 
 std::string card_text(const Device& device, const Designs& designs, const std::string& tools) {
   std::string text = fmt::format(
@@ -138,32 +149,52 @@ std::string card_text(const Device& device, const Designs& designs, const std::s
   text += model_text("luts", fitted(&MeasuredDesign::luts, area_features()));
   text += model_text("registers", fitted(&MeasuredDesign::registers, area_features()));
   for (const MeasuredDesign& d : designs.measured) {
-    text += fmt::format(
-        "\n[[measured]]\nparameters = \"{}\"\nclock_ns = {:.2f}\nslowest_ns = {:.2f}\n"
-        "limited_by = \"{}\"\nluts = {}\nregisters = {}\ncarries = {}\nblock_rams = {}\n",
-        d.parameters, d.clock_ns, d.slowest_ns, d.limited_by, d.luts, d.registers, d.carries,
-        d.block_rams);
+    text += "\n[[measured]]\n" + design_text(d);
+  }
+  for (const MeasuredUnit& unit : designs.units) {
+    text += fmt::format("\n[[unit]]\noperation = \"{}\"\nmodule = \"{}\"\nlatency_cycles = {}\n{}",
+                        unit.operation, unit.module, unit.latency_cycles, design_text(unit.design));
   }
   return text;
+}
+
+void print_design(const MeasuredDesign& design) {
+  fmt::print("{:.2f} ns by {}, {} LUTs, {} registers, {} block RAMs\n", design.clock_ns,
+             design.limited_by, design.luts, design.registers, design.block_rams);
+  std::fflush(stdout);
+}
+
+// Measures the units of hw/units/ for all cards.
+void measure_units(std::map<std::string, Designs>& designs) {
+  for (const UnitTarget& unit : unit_targets()) {
+    const Netlist netlist(unit.target, installation().hardware / unit.folder);
+    for (const Device& device : kDevices) {
+      fmt::print("{} {}: ", device.card, unit.target.module);
+      MeasuredDesign design = netlist.place(device.device, device.package);
+      design.limited_by = unit.target.module;
+      print_design(design);
+      designs[device.card].units.push_back(
+          {unit.operation, unit.target.module, unit.latency_cycles, design});
+    }
+  }
 }
 
 void write_cards(const std::filesystem::path& folder) {
   const std::vector<DatapathConfiguration> all = configurations();
   std::map<std::string, Designs> designs;  // by card
+  measure_units(designs);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Netlist netlist(all[i], installation().hardware);
+    const Netlist netlist(datapath_target(all[i]), installation().hardware);
     for (const Device& device : kDevices) {
       fmt::print("{}/{} {} {}: ", i + 1, all.size(), device.card, rtl_parameters_text(all[i]));
       try {
         const MeasuredDesign design = netlist.place(device.device, device.package);
-        fmt::print("{:.2f} ns by {}, {} LUTs, {} registers, {} block RAMs\n", design.clock_ns,
-                   design.limited_by, design.luts, design.registers, design.block_rams);
+        print_design(design);
         designs[device.card].configurations.push_back(all[i]);
         designs[device.card].measured.push_back(design);
       } catch (const InputError&) {
         fmt::print("too large\n");
       }
-      std::fflush(stdout);
     }
   }
   for (const Device& device : kDevices) {
@@ -172,10 +203,14 @@ void write_cards(const std::filesystem::path& folder) {
   }
 }
 
-void fit_cards_again(const std::filesystem::path& folder) {
+// With the designs of the cards that there are; with their units, too, or with units measured anew.
+void write_cards_again(const std::filesystem::path& folder, bool with_new_units) {
+  std::map<std::string, Designs> all;  // by card
+  if (with_new_units) measure_units(all);
   for (const Device& device : kDevices) {
     const Technology card = load_technology(device.card);
-    Designs designs;
+    Designs& designs = all[device.card];
+    if (!with_new_units) designs.units = card.units;
     for (const DatapathConfiguration& configuration : configurations()) {
       const MeasuredDesign* const design = card.find(configuration);
       if (design == nullptr) continue;  // too large for the device
@@ -193,7 +228,7 @@ bool check_cards() {
   bool good = true;
   for (const char* preset : {"default", "paper-8k"}) {
     const DatapathConfiguration datapath = of_preset(preset, 1);
-    const Netlist netlist(datapath, installation().hardware);
+    const Netlist netlist(datapath_target(datapath), installation().hardware);
     for (const Device& device : kDevices) {
       const MeasuredDesign* const known = load_technology(device.card).find(datapath);
       if (known == nullptr) throw std::runtime_error("the card has no figures of the preset");
@@ -221,12 +256,12 @@ bool check_cards() {
 int main(int argc, char** argv) {
   try {
     if (argc == 2 && std::string(argv[1]) == "--check") return phongpipe::check_cards() ? 0 : 1;
-    if (argc == 3 && std::string(argv[1]) == "--fit") {
-      phongpipe::fit_cards_again(argv[2]);
+    if (argc == 3 && (std::string(argv[1]) == "--fit" || std::string(argv[1]) == "--units")) {
+      phongpipe::write_cards_again(argv[2], std::string(argv[1]) == "--units");
       return 0;
     }
     if (argc != 2) {
-      fmt::print(stderr, "synthesize_cards [--fit] FOLDER, or --check\n");
+      fmt::print(stderr, "synthesize_cards [--fit | --units] FOLDER, or --check\n");
       return 2;
     }
     phongpipe::write_cards(argv[1]);

@@ -43,6 +43,15 @@ MeasuredDesign read_design(const TomlTable& table) {
   return design;
 }
 
+MeasuredUnit read_unit(const TomlTable& table) {
+  MeasuredUnit unit;
+  unit.operation = table.text("operation");
+  unit.module = table.text("module");
+  unit.latency_cycles = table.integer("latency_cycles", 1, 1000);
+  unit.design = read_design(table);
+  return unit;
+}
+
 // How many of the parameters two designs have in common.
 std::ptrdiff_t in_common(std::string_view a, std::string_view b) {
   const auto parts = [](std::string_view text) {
@@ -163,6 +172,10 @@ Technology load_technology(const std::string& name) {
     fitted.finish();
     for (const TomlTable& design : table.tables("measured")) {
       technology.measured.push_back(read_design(design));
+    }
+    if (table.has("unit")) {
+      for (const TomlTable& unit : table.tables("unit"))
+        technology.units.push_back(read_unit(unit));
     }
   }
   table.finish();

@@ -42,6 +42,14 @@ struct MeasuredDesign {
   int luts = 0, registers = 0, carries = 0, block_rams = 0;
 };
 
+// A pipelined unit for one operation of a shading method, which takes operands in every clock.
+struct MeasuredUnit {
+  std::string operation;   // "add", "multiply", "divide", "rsqrt", "power"
+  std::string module;      // of hw/
+  int latency_cycles = 0;  // from operands to result
+  MeasuredDesign design;
+};
+
 // What the figures of a configuration depend on, as a linear model sees it: names and values.
 std::vector<std::pair<std::string_view, double>> synthesis_features(
     const DatapathConfiguration& configuration);
@@ -60,6 +68,7 @@ struct Technology {
   std::vector<MeasuredDesign> measured;
   FittedModel clock_model, lut_model, register_model;  // if `measured`
   ClockFigure fixed;                                   // if not `measured`
+  std::vector<MeasuredUnit> units;                     // if `measured`
 
   ClockFigure clock(const DatapathConfiguration& configuration) const;
   // None if the card has no areas.

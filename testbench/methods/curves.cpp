@@ -229,7 +229,10 @@ Curve break_even_curve(const PipelineConfiguration& units) {
   for (const auto& [machine, clocks] : machines) {
     for (const char* series : {"taylor", "weighted"}) {
       for (const char* rival : {"phong", "duff"}) {
-        PlotSeries line = {fmt::format("{} over {}, {}", series, rival, machine), {}};
+        const auto size = break_even_pixels(costs(series), costs(rival), clocks);
+        PlotSeries line = {fmt::format("{} over {}, {}: pays {}", series, rival, machine,
+                                       size ? fmt::format("from {} pixels", *size) : "nowhere"),
+                           {}};
         for (const int pixels : decade_steps({1, 2, 3, 5, 7}, kLargestTriangle)) {
           const double ratio = amortised_clocks(costs(series), pixels, clocks) /
                                amortised_clocks(costs(rival), pixels, clocks);

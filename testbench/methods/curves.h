@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "model/fixed/prepared_frame.h"
 #include "model/shading/methods/shading_method.h"
 #include "testbench/drawing/plot.h"
 #include "testbench/hardware/hardware.h"
@@ -55,8 +56,9 @@ Curve block_curve(const std::shared_ptr<const PreparedScene>& scene, const Hardw
                   double budget_ns);
 
 // Time of full Phong shading by a series over that by a method that shades each pixel anew, for
-// triangles of 1 to 10,000 pixels: below 1 the series pays. On a processor that executes one
-// operation after the other, as the paper counts, and on the hardware's shared units.
+// triangles of 1 to 10,000 pixels: below 1 the series pays; names tell from which size. On a
+// processor that executes one operation after the other, as the paper counts, and on the hardware's
+// shared units.
 Curve break_even_curve(const PipelineConfiguration& units);
 
 // The least triangle size in pixels, within the range of size_curve, from which `method` takes less

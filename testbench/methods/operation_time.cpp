@@ -9,17 +9,12 @@ double per_clock(const Units& units) {
   return static_cast<double>(units.count) / units.interval;
 }
 
-// Quotients by a root, divisions alone and roots alone.
-struct Roots {
-  std::size_t pairs, divisions, roots;
-};
+}  // namespace
 
 Roots roots_of(const OperationCounts& counts) {
   const std::size_t pairs = std::min(counts.divide, counts.sqrt);
   return {pairs, counts.divide - pairs, counts.sqrt - pairs};
 }
-
-}  // namespace
 
 double clocks(const OperationCounts& counts, const PipelineConfiguration& units) {
   const auto [pairs, divisions, roots] = roots_of(counts);

@@ -6,6 +6,12 @@
 
 namespace phongpipe {
 
+// Quotients by a root, divisions alone and roots alone.
+struct Roots {
+  std::size_t pairs = 0, divisions = 0, roots = 0;
+};
+Roots roots_of(const OperationCounts& counts);
+
 // Clocks per repetition if the given units repeat these operations and are always fed: the busiest
 // kind of unit decides. There is one memory port, and no unit for division or roots: x/√y takes an
 // rsqrt and a multiplication, a division alone an rsqrt and two multiplications, a root alone an

@@ -12,6 +12,7 @@
 #include "testbench/drawing/pictures.h"
 #include "testbench/methods/curves.h"
 #include "testbench/methods/operation_time.h"
+#include "testbench/methods/unit_hardware.h"
 #include "testbench/reports/result_page.h"
 #include "testbench/system/output_file.h"
 
@@ -88,6 +89,19 @@ OperationCounts of_a_pixel(const MethodResult& r) {
   return r.costs.pixel + r.costs.combine;
 }
 
+std::optional<UnitHardware> hardware_of(const MethodResult& r, const Comparison& comparison) {
+  return unit_hardware(of_a_pixel(r), comparison.hardware.technology);
+}
+
+nlohmann::ordered_json hardware_json(const MethodResult& r, const Comparison& comparison) {
+  const auto hardware = hardware_of(r, comparison);
+  if (!hardware) return nullptr;
+  return {{"luts", hardware->luts},
+          {"registers", hardware->registers},
+          {"block_rams", hardware->block_rams},
+          {"clock_ns", hardware->clock_ns}};
+}
+
 MetricValue count(std::size_t value) {
   return static_cast<std::int64_t>(value);
 }
@@ -110,6 +124,32 @@ constexpr MethodColumn kMethodColumns[] = {
      [](const MethodResult& r, const Comparison&) -> MetricValue { return r.clocks_per_pixel; }},
     {"ns_per_pixel", "ns", "the same as time", Better::less, true,
      [](const MethodResult& r, const Comparison&) -> MetricValue { return r.ns_per_pixel; }},
+    {"luts", "", "of hardware that shades a pixel a clock: a unit for each operation", Better::less,
+     true,
+     [](const MethodResult& r, const Comparison& c) {
+       const auto hardware = hardware_of(r, c);
+       return hardware ? count(static_cast<std::size_t>(hardware->luts)) : MetricValue();
+     }},
+    {"registers", "", "of the same, in bits", Better::less, true,
+     [](const MethodResult& r, const Comparison& c) {
+       const auto hardware = hardware_of(r, c);
+       return hardware ? count(static_cast<std::size_t>(hardware->registers)) : MetricValue();
+     }},
+    {"block_rams", "", "of the same", Better::less, true,
+     [](const MethodResult& r, const Comparison& c) {
+       const auto hardware = hardware_of(r, c);
+       return hardware ? count(static_cast<std::size_t>(hardware->block_rams)) : MetricValue();
+     }},
+    {"unit_clock_ns", "ns", "clock of its slowest unit, and time of a pixel", Better::less, true,
+     [](const MethodResult& r, const Comparison& c) -> MetricValue {
+       const auto hardware = hardware_of(r, c);
+       return hardware ? MetricValue(hardware->clock_ns) : MetricValue();
+     }},
+    {"lut_ns", "ns", "area × time: LUTs of that hardware times its clock", Better::less, true,
+     [](const MethodResult& r, const Comparison& c) -> MetricValue {
+       const auto hardware = hardware_of(r, c);
+       return hardware ? MetricValue(hardware->lut_ns()) : MetricValue();
+     }},
     {"speed_over_phong", "", "as software on this machine, exact Phong's being 1", Better::more,
      true,
      [](const MethodResult& r, const Comparison& c) -> MetricValue {
@@ -129,26 +169,56 @@ Cell cell(const MethodColumn& column, const MethodResult& r, const Comparison& c
   return column.value(r, comparison);
 }
 
-std::vector<std::string> summary_of(const Comparison& comparison) {
+// A cost of a method, if it has one.
+using CostOf = std::function<std::optional<double>(const MethodResult&)>;
+
+// The methods with the least error for their cost, the cheapest first.
+std::vector<std::size_t> best_methods(const Comparison& comparison, const CostOf& cost) {
   std::vector<std::optional<ParetoPoint>> points;
-  std::size_t refused = 0;
   for (const MethodResult& r : comparison.methods) {
-    refused += r.refused.empty() ? 0 : 1;
-    const bool measured = r.refused.empty() && !r.is_limit;
-    points.push_back(measured ? std::make_optional(ParetoPoint{r.ns_per_pixel, r.error.largest_lsb})
-                              : std::nullopt);
+    std::optional<double> value;
+    if (r.refused.empty() && !r.is_limit) value = cost(r);
+    points.push_back(value ? std::make_optional(ParetoPoint{*value, r.error.largest_lsb})
+                           : std::nullopt);
   }
-  std::vector<std::string> best;
-  for (const std::size_t i : pareto_front(points)) {
-    const MethodResult& r = comparison.methods[i];
-    best.push_back(
-        fmt::format("{} {:.2f} ns and {:.2f} LSB", r.name, r.ns_per_pixel, r.error.largest_lsb));
-  }
-  return {
+  return pareto_front(points);
+}
+
+CostOf time_of_units() {
+  return [](const MethodResult& r) { return std::make_optional(r.ns_per_pixel); };
+}
+CostOf area_times_time(const Comparison& comparison) {
+  return [&comparison](const MethodResult& r) -> std::optional<double> {
+    const auto hardware = hardware_of(r, comparison);
+    if (!hardware || hardware->luts == 0) return {};  // nothing to compute for a pixel
+    return hardware->lut_ns();
+  };
+}
+
+std::vector<std::string> summary_of(const Comparison& comparison) {
+  const auto refused = std::count_if(comparison.methods.begin(), comparison.methods.end(),
+                                     [](const MethodResult& r) { return !r.refused.empty(); });
+  const auto best = [&](const CostOf& cost, const char* format) {
+    std::vector<std::string> texts;
+    for (const std::size_t i : best_methods(comparison, cost)) {
+      const MethodResult& r = comparison.methods[i];
+      texts.push_back(fmt::format(fmt::runtime(format), r.name, *cost(r), r.error.largest_lsb));
+    }
+    return fmt::format("{}", fmt::join(texts, "; "));
+  };
+  std::vector<std::string> summary = {
       fmt::format("{} methods on {}: {} triangles, {} pixels shaded.", comparison.methods.size(),
                   comparison.scene, comparison.triangles, comparison.pixels),
-      fmt::format("{} render the scene, {} refused.", comparison.methods.size() - refused, refused),
-      fmt::format("Least error for their time: {}.", fmt::join(best, "; "))};
+      fmt::format("{} render the scene, {} refused.",
+                  static_cast<std::ptrdiff_t>(comparison.methods.size()) - refused, refused),
+      fmt::format("Least error for their time: {}.",
+                  best(time_of_units(), "{} {:.2f} ns and {:.2f} LSB"))};
+  if (!comparison.hardware.technology.units.empty()) {
+    summary.push_back(
+        fmt::format("Least error for the area × time of hardware that shades a pixel a clock: {}.",
+                    best(area_times_time(comparison), "{} {:.0f} LUT·ns and {:.2f} LSB")));
+  }
+  return summary;
 }
 
 }  // namespace
@@ -217,6 +287,7 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
                 {"clocks_per_pixel", r.clocks_per_pixel},
                 {"ns_per_pixel", r.ns_per_pixel},
                 {"sequential_operations_per_pixel", r.operations_per_pixel},
+                {"one_pixel_a_clock", hardware_json(r, comparison)},
                 {"cycles_per_triangle", clocks(r.costs.triangle, comparison.hardware.pipeline)},
                 {"speed_over_phong", phong / r.wall_clock_ns_per_pixel},
                 {"break_even_pixels", pays}});
@@ -254,23 +325,28 @@ std::string comparison_csv(const Comparison& comparison) {
   return text;
 }
 
-Chart accuracy_against_time(const Comparison& comparison) {
+// All methods, and the front of those with the least error for their cost.
+Chart accuracy_against(const Comparison& comparison, const CostOf& cost, std::string title,
+                       std::string x_label) {
   Chart chart;
-  chart.title = name_of(comparison) + ": accuracy against time";
-  chart.x_label = "ns a pixel on the setup engine's units";
+  chart.title = name_of(comparison) + std::move(title);
+  chart.x_label = std::move(x_label);
   chart.y_label = "largest error, LSB";
   chart.log_x = chart.log_y = true;
-  chart.lines = false;
-  PlotSeries points;
-  points.name = "methods";
-  for (const MethodResult& r : comparison.methods) {
-    if (!r.refused.empty() || r.is_limit) continue;
+  const auto point = [&cost](const MethodResult& r, std::string label) {
     // Methods that equal Phong but for the last bits stand on the floor of the plot.
     constexpr double kFloor = 0.01;
-    points.points.push_back(
-        {r.ns_per_pixel, std::max(kFloor, r.error.largest_lsb), std::string(r.name)});
+    return PlotPoint{*cost(r), std::max(kFloor, r.error.largest_lsb), std::move(label)};
+  };
+  PlotSeries methods = {"methods", {}, false}, front = {"least error for its cost", {}};
+  for (const MethodResult& r : comparison.methods) {
+    if (!r.refused.empty() || r.is_limit || !cost(r)) continue;
+    methods.points.push_back(point(r, std::string(r.name)));
   }
-  chart.series.push_back(std::move(points));
+  for (const std::size_t i : best_methods(comparison, cost)) {
+    front.points.push_back(point(comparison.methods[i], ""));
+  }
+  chart.series = {std::move(methods), std::move(front)};
   return chart;
 }
 
@@ -282,7 +358,8 @@ void write_comparison_page(const Comparison& comparison, const std::string& rend
   page.title = scene + ": every shading method, its accuracy and its time";
   page.row = "method";
   page.summary = summary_of(comparison);
-  page.x = "ns_per_pixel";
+  const bool units = !comparison.hardware.technology.units.empty();
+  page.x = units ? "lut_ns" : "ns_per_pixel";
   page.y = "max_lsb";
   page.logarithmic = true;
   page.details = comparison_text(comparison);
@@ -318,7 +395,15 @@ void write_comparison_page(const Comparison& comparison, const std::string& rend
     page.pictures[page.rows.size() - 1] = {{"result", picture}, {"error map", error}};
   }
   write_text(folder / fmt::format("{}-methods.html", scene), result_page(page));
-  write_text(folder / fmt::format("{}-methods.svg", scene), svg(accuracy_against_time(comparison)));
+  write_text(folder / fmt::format("{}-methods.svg", scene),
+             svg(accuracy_against(comparison, time_of_units(), ": accuracy against time",
+                                  "ns a pixel on the setup engine's units")));
+  if (units) {
+    write_text(folder / fmt::format("{}-area.svg", scene),
+               svg(accuracy_against(comparison, area_times_time(comparison),
+                                    ": accuracy against area × time, a pixel a clock",
+                                    "LUTs × clock in ns")));
+  }
 }
 
 std::string microvax_text() {

@@ -10,10 +10,6 @@
 
 namespace phongpipe {
 
-// The RTL source files in a folder, .sv and .svh, sorted, without subfolders. Throws InputError if
-// there is no .sv file.
-std::vector<std::filesystem::path> rtl_sources(const std::filesystem::path& folder);
-
 // The RTL of one configuration and the file that it is to be found in.
 struct RtlTarget {
   DatapathConfiguration configuration;

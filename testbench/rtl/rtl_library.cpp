@@ -10,6 +10,7 @@
 #include "model/files/text_file.h"
 #include "model/scene/tool_error.h"
 #include "testbench/rtl/rtl_builder.h"
+#include "testbench/rtl/tool_folder.h"
 #include "testbench/rtl/rtl_cache.h"
 #include "testbench/system/installation.h"
 #include "testbench/system/sha256.h"

@@ -74,9 +74,13 @@ std::optional<RtlRegister> RtlRegister::find(const RtlSignals& signals,
                                              const DatapathSignal& signal) {
   RtlRegister found;
   const std::string& name = signal.packed.empty() ? signal.name : signal.packed;
-  found.view_ = signals.find(signal.block(), name);
-  if (found.view_ == nullptr && !signal.packed.empty()) {
-    found.view_ = signals.find("pixel_datapath", name);
+  std::string scope = signal.block();
+  found.view_ = signals.find(scope, name);
+  // What is packed with others stands in a block around them.
+  while (found.view_ == nullptr && !signal.packed.empty() &&
+         scope.rfind('.') != std::string::npos) {
+    scope.resize(scope.rfind('.'));
+    found.view_ = signals.find(scope, name);
   }
   found.lsb_ = signal.rtl_lsb;
   found.width_ = signal.width;

@@ -4,9 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -15,7 +12,6 @@
 #include "model/fixed/constants.h"
 #include "model/scene/input_error.h"
 #include "model/scene/tool_error.h"
-#include "testbench/rtl/rtl_builder.h"
 #include "testbench/system/output_file.h"
 #include "testbench/system/process.h"
 
@@ -24,10 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Port {
-  const char* name;
-  int width;
-};
+using Port = SynthesisTarget::Port;
 
 std::vector<Port> inputs_of(const DatapathConfiguration& c) {
   const int diffuse = c.diffuse_width(), specular = c.specular_width(), channels = c.channels;
@@ -69,19 +62,19 @@ std::vector<Port> outputs_of(const DatapathConfiguration& c) {
 
 // All ports between registers: a chain that fills the inputs from a pin, and one that empties the
 // outputs to a pin.
-std::string harness(const DatapathConfiguration& c) {
+std::string harness(const SynthesisTarget& target) {
   int inputs = 0, outputs = 0;
   std::string connections;
-  for (const Port& port : inputs_of(c)) {
+  for (const Port& port : target.inputs) {
     connections += fmt::format(", .{}(in[{}+:{}])", port.name, inputs, port.width);
     inputs += port.width;
   }
-  for (const Port& port : outputs_of(c)) {
+  for (const Port& port : target.outputs) {
     connections += fmt::format(", .{}(out[{}+:{}])", port.name, outputs, port.width);
     outputs += port.width;
   }
   std::vector<std::string> parameters;
-  for (const auto& [name, value] : rtl_parameters(c)) {
+  for (const auto& [name, value] : target.parameters) {
     parameters.push_back(fmt::format(".{}({})", name, value));
   }
   return fmt::format(
@@ -90,18 +83,14 @@ std::string harness(const DatapathConfiguration& c) {
       "  assign empty = taken[0];\n"
       "  always @(posedge clk) begin\n"
       "    in <= {{in, fill}};\n    taking <= take;\n    taken <= taking ? out : taken >> 1;\n"
-      "  end\n  pixel_datapath #({2}) dut (.clk(clk){3});\nendmodule\n",
-      inputs - 1, outputs - 1, fmt::join(parameters, ", "), connections);
+      "  end\n  {2} #({3}) dut (.clk(clk){4});\nendmodule\n",
+      inputs - 1, outputs - 1, target.module, fmt::join(parameters, ", "), connections);
 }
 
 // Throws ToolError if it fails, InputError if the design is too large for the device.
-void run_tool(const std::vector<std::string>& command, const fs::path& folder) {
-  const ProcessOutput output = run_process(command, folder);
+void run_tool(const std::vector<std::string>& command, const ToolFolder& tools) {
+  const ProcessOutput output = tools.run(command);
   if (output.status == 0) return;
-  if (output.start_error != 0) {
-    throw ToolError(fmt::format("{} could not be started; install it: apt install {} (Debian)",
-                                command.front(), command.front()));
-  }
   std::smatch line;
   static const std::regex error("ERROR: ([^\n]*)");
   std::string message = "it failed without a message";
@@ -115,25 +104,13 @@ void run_tool(const std::vector<std::string>& command, const fs::path& folder) {
   throw ToolError(fmt::format("{} said: {}", command.front(), message));
 }
 
-// The block of hw/ that a cell of the flattened netlist belongs to, by its name.
-std::string block_of(const std::string& cell) {
-  constexpr std::pair<const char*, const char*> kBlocks[] = {{"_series.", "forward_differencer"},
-                                                             {".rom.", "exponent_rom"},
-                                                             {".summation.", "color_sum"},
-                                                             {".multiplier.", "depth_cue"},
-                                                             {".queue.", "pixel_queue"}};
-  for (const auto& [part, block] : kBlocks) {
-    if (cell.find(part) != std::string::npos) return block;
-  }
-  return "control";
-}
-
 struct Placement {
   double clock_ns = 0;
   std::string limited_by;
 };
 
-Placement read_report(const fs::path& file) {
+Placement read_report(const fs::path& file,
+                      const std::vector<std::pair<std::string, std::string>>& blocks) {
   const auto report = nlohmann::json::parse(read_whole_file(file));
   Placement placement;
   for (const auto& clock : report.at("fmax")) {
@@ -145,7 +122,11 @@ Placement read_report(const fs::path& file) {
       return path.at(end).get<std::string>().rfind("posedge", 0) == 0;
     };
     if (!is_clocked("from") || !is_clocked("to")) continue;
-    placement.limited_by = block_of(path.at("path").back().at("to").at("cell"));
+    const std::string cell = path.at("path").back().at("to").at("cell");
+    placement.limited_by = "control";
+    for (const auto& [part, block] : blocks) {
+      if (cell.find(part) != std::string::npos) placement.limited_by = block;
+    }
   }
   if (placement.clock_ns <= 0) throw ToolError("nextpnr-ice40 reported no clock");
   return placement;
@@ -153,48 +134,45 @@ Placement read_report(const fs::path& file) {
 
 }  // namespace
 
-Netlist::Netlist(const DatapathConfiguration& configuration, const fs::path& sources) {
-  std::string name = (fs::temp_directory_path() / "phongpipe-synthesis-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) {
-    throw ToolError(fmt::format("{}: {}", name, std::strerror(errno)));
-  }
-  folder_ = name;
+SynthesisTarget datapath_target(const DatapathConfiguration& configuration) {
+  return {"pixel_datapath",
+          rtl_parameters(configuration),
+          inputs_of(configuration),
+          outputs_of(configuration),
+          {{"_series.", "forward_differencer"},
+           {".rom.", "exponent_rom"},
+           {".summation.", "color_sum"},
+           {".multiplier.", "depth_cue"},
+           {".queue.", "pixel_queue"}}};
+}
+
+Netlist::Netlist(const SynthesisTarget& target, const fs::path& sources)
+    : tools_(fs::temp_directory_path()), blocks_(target.blocks) {
   std::string files;
-  int modules = 0;
-  for (const fs::path& source : rtl_sources(sources)) {
-    // What is included keeps its name; a module gets one that yosys's script cannot misread.
-    const bool is_module = source.extension() == ".sv";
-    const std::string copy =
-        is_module ? fmt::format("{}.sv", modules++) : source.filename().string();
-    fs::copy_file(source, folder_ / copy);
-    if (is_module) files += " " + copy;
+  for (const RtlSource& source : tools_.copy_sources(sources)) {
+    if (source.original.extension() == ".sv") files += " " + source.copy;
   }
-  write_text(folder_ / "harness.v", harness(configuration));
+  write_text(tools_.path() / "harness.v", harness(target));
   std::string sets;
-  for (const auto& [parameter, value] : rtl_parameters(configuration)) {
+  for (const auto& [parameter, value] : target.parameters) {
     sets += fmt::format(" -set {} {}", parameter, value);
   }
   // Once alone, for its area, and once between registers.
   run_tool({"yosys", "-q", "-p",
-            fmt::format("read_verilog -sv -I.{0}; chparam{1} pixel_datapath; synth_ice40 -top "
-                        "pixel_datapath; tee -q -o area.json stat -json; design -reset; "
-                        "read_verilog -sv -I.{0} harness.v; synth_ice40 -top harness -json "
+            fmt::format("read_verilog -sv -I{1}{0}; chparam{2} {3}; synth_ice40 -top {3}; "
+                        "tee -q -o area.json stat -json; design -reset; "
+                        "read_verilog -sv -I{1}{0} harness.v; synth_ice40 -top harness -json "
                         "harness.json",
-                        files, sets)},
-           folder_);
-  const auto area = nlohmann::json::parse(read_whole_file(folder_ / "area.json"));
-  area_.parameters = rtl_parameters_text(configuration);
+                        files, ToolFolder::kSources, sets, target.module)},
+           tools_);
+  const auto area = nlohmann::json::parse(read_whole_file(tools_.path() / "area.json"));
+  area_.parameters = parameters_text(target.parameters);
   for (const auto& [cell, count] : area.at("design").at("num_cells_by_type").items()) {
     if (cell == "SB_LUT4") area_.luts += count.get<int>();
     if (cell == "SB_CARRY") area_.carries += count.get<int>();
     if (cell.rfind("SB_DFF", 0) == 0) area_.registers += count.get<int>();
     if (cell.rfind("SB_RAM40", 0) == 0) area_.block_rams += count.get<int>();
   }
-}
-
-Netlist::~Netlist() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
 }
 
 MeasuredDesign Netlist::place(const std::string& device, const std::string& package,
@@ -204,8 +182,8 @@ MeasuredDesign Netlist::place(const std::string& device, const std::string& pack
     run_tool({"nextpnr-ice40", "-q", "--" + device, "--package", package, "--json", "harness.json",
               "--seed", std::to_string(seed), "--freq", "200", "--timing-allow-fail",
               "--pcf-allow-unconstrained", "--report", report},
-             folder_);
-    return read_report(folder_ / report);
+             tools_);
+    return read_report(tools_.path() / report, blocks_);
   };
   std::vector<Placement> placements;
   constexpr int kAtOnce = 2;

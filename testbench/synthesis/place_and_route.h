@@ -1,27 +1,40 @@
-// Places and routes pixel_datapath on an iCE40 device with yosys and nextpnr-ice40, between
+// Places and routes RTL on an iCE40 device with yosys and nextpnr-ice40, between
 // registers, so that pins do not limit.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/fixed/datapath_configuration.h"
 #include "testbench/hardware/technology.h"
+#include "testbench/rtl/tool_folder.h"
 
 namespace phongpipe {
 
 constexpr int kPlacementSeeds = 3;
 
-// A configuration, synthesised for all iCE40 devices; its files are deleted with it.
+// A module to synthesise. It has a port `clk` besides those named.
+struct SynthesisTarget {
+  struct Port {
+    std::string name;
+    int width = 1;
+  };
+  std::string module;
+  RtlParameters parameters;
+  std::vector<Port> inputs, outputs;
+  // Blocks by a part of the names that their cells have in the flattened netlist.
+  std::vector<std::pair<std::string, std::string>> blocks;
+};
+SynthesisTarget datapath_target(const DatapathConfiguration& configuration);
+
+// A module, synthesised for all iCE40 devices; its files are deleted with it.
 class Netlist {
  public:
   // `sources`: a folder of RTL. Throws ToolError with the first error of a tool, or with what to
   // install.
-  Netlist(const DatapathConfiguration& configuration, const std::filesystem::path& sources);
-  ~Netlist();
-  Netlist(const Netlist&) = delete;
-  Netlist& operator=(const Netlist&) = delete;
+  Netlist(const SynthesisTarget& target, const std::filesystem::path& sources);
 
   // With `seeds` seeds, two at a time. Throws ToolError, or InputError if the design is too large
   // for the device.
@@ -29,8 +42,9 @@ class Netlist {
                        int seeds = kPlacementSeeds) const;
 
  private:
+  ToolFolder tools_;
+  std::vector<std::pair<std::string, std::string>> blocks_;
   MeasuredDesign area_;
-  std::filesystem::path folder_;
 };
 
 // "yosys 0.23 and nextpnr-ice40 0.4".

@@ -64,6 +64,11 @@ int exit_status(int wait_status) {
 }
 
 std::string ending_text(int wait_status) {
+  // A file that is mapped into memory and cannot grow ends a process by SIGBUS.
+  if (WIFSIGNALED(wait_status) &&
+      (WTERMSIG(wait_status) == SIGBUS || WTERMSIG(wait_status) == SIGXFSZ)) {
+    return fmt::format("signal {}; is the disk full, or are files limited?", WTERMSIG(wait_status));
+  }
   return WIFSIGNALED(wait_status) ? fmt::format("signal {}", WTERMSIG(wait_status))
                                   : fmt::format("status {}", WEXITSTATUS(wait_status));
 }

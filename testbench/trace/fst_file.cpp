@@ -107,9 +107,14 @@ class FstWriter : public WaveWriter {
   FstWriter& operator=(const FstWriter&) = delete;
 
   void time(std::uint64_t ps) override {
-    // Each flush ends a block, which can be read without those behind it.
-    constexpr int kTimesPerBlock = 4096;
-    if (++times_ % kTimesPerBlock == 0) fstWriterFlushContext(fst_);
+    // Each flush ends a block, which can be read without those behind it. Blocks double in length,
+    // so that also short traces have some, and long ones few.
+    constexpr int kMostTimesInBlock = 4096;
+    if (++times_ == times_in_block_) {
+      fstWriterFlushContext(fst_);
+      times_ = 0;
+      times_in_block_ = std::min(2 * times_in_block_, kMostTimesInBlock);
+    }
     fstWriterEmitTimeChange(fst_, ps);
   }
   void change(std::size_t index, const std::string& text) override {
@@ -130,7 +135,7 @@ class FstWriter : public WaveWriter {
  private:
   PartialFile file_;
   void* fst_;
-  int times_ = 0;
+  int times_ = 0, times_in_block_ = 32;  // since the last flush, and until the next
   std::vector<fstHandle> handles_;
   std::vector<bool> is_real_;
 };

@@ -42,8 +42,8 @@ SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
     inputs.span = nullptr;
     if (clock == story.step) story.pixel = registers.in_stage(0);
     for (const DatapathSignal& signal : signals) {
-      if (signal.always) continue;
       const int pixel = clock - signal.stage;
+      if (signal.always || (signal.only_first && pixel != 0)) continue;
       if (clock == 1 && pixel == 0) story.start.push_back({signal, signal.value(registers)});
       if (pixel == story.step) story.registers.push_back({signal, signal.value(registers)});
     }

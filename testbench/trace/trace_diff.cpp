@@ -17,22 +17,33 @@ namespace {
 
 constexpr std::string_view kDatapath = "pixel_datapath";
 
-// Names of registers by their full name, with the stage that they belong to: those of the table of
-// signals, for the datapath with everything, and those that they are packed in.
+// Names of registers by their full name, with the stage that they belong to: those of the tables of
+// signals for datapaths with everything, and those that they are packed in.
 const std::map<std::string, int>& stages_of_signals() {
   static const std::map<std::string, int> all = [] {
     std::map<std::string, int> stages;
     DatapathConfiguration everything;
-    everything.channels = 3;
     everything.diffuse = everything.specular = everything.depth_cue = true;
     everything.gate = GateSource::series;
-    everything.rom_layout = RomLayout::bipartite;
-    for (const DatapathSignal& signal : datapath_signals(everything)) {
-      stages.emplace(signal.full_name(), signal.stage);
-      // Words that are packed with those of other stages are no signals of a pixel.
-      const bool of_one_stage = signal.packed == signal.name || signal.packed == signal.name + "s";
-      if (of_one_stage) {
-        stages.emplace(fmt::format("{}.{}", kDatapath, signal.packed), signal.stage);
+    constexpr int kMostAddressBits = 13;
+    constexpr std::pair<RomLayout, int> kTables[] = {{RomLayout::plain, 11},  // a bank
+                                                     {RomLayout::plain, kMostAddressBits},
+                                                     {RomLayout::bipartite, kMostAddressBits}};
+    for (const int channels : {1, 3}) {
+      for (const auto& [layout, address_bits] : kTables) {
+        everything.channels = channels;
+        everything.rom_layout = layout;
+        everything.rom_address_bits = address_bits;
+        for (const DatapathSignal& signal : datapath_signals(everything)) {
+          if (signal.only_first) continue;
+          stages.emplace(signal.full_name(), signal.stage);
+          // Words that are packed with those of other stages are no signals of a pixel.
+          const bool of_one_stage =
+              signal.packed == signal.name || signal.packed == signal.name + "s";
+          if (of_one_stage) {
+            stages.emplace(fmt::format("{}.{}", kDatapath, signal.packed), signal.stage);
+          }
+        }
       }
     }
     return stages;
@@ -40,12 +51,17 @@ const std::map<std::string, int>& stages_of_signals() {
   return all;
 }
 
+// Ports that show a pixel when it leaves, in the place of a stage behind the last one.
+constexpr int kOutputStage = kMostStages;
+constexpr std::array<std::string_view, 3> kOutputs = {"pixel_x", "pixel_y", "pixel_color"};
+
 // What a trace shows of one pixel.
 struct TracedPixel {
   int x = 0, y = 0;
-  std::array<std::uint64_t, kMostStages> ps{};  // when each stage took it; 0: it was not seen there
-  std::map<std::string, std::string> signals;   // bits, by full name
-  std::optional<int> entered, left;             // clocks
+  // When each stage took it; 0: it was not seen there.
+  std::array<std::uint64_t, kMostStages + 1> ps{};
+  std::map<std::string, std::string> signals;  // bits, by full name
+  std::optional<int> entered, left;            // clocks
 };
 
 // Follows pixels through one pixel_datapath of a file, clock by clock.
@@ -60,6 +76,11 @@ class Follower {
       if (name == fmt::format("{}.s{}_valid", kDatapath, stage)) valid_[index(stage)] = variable;
     }
     if (name == fmt::format("{}.valid", kDatapath)) valid_width_ = width;
+    for (const std::string_view output : kOutputs) {
+      if (name == fmt::format("{}.{}", kDatapath, output)) {
+        registers_[kOutputStage].push_back({name, variable, width});
+      }
+    }
     const auto known = stages_of_signals().find(name);
     if (known == stages_of_signals().end()) return;
     registers_[index(known->second)].push_back({name, variable, width});
@@ -91,12 +112,13 @@ class Follower {
     }
     for (int stage = 0; stage < kMostStages; ++stage) {
       if (!valid[index(stage)]) held_[index(stage)].reset();
-      if (held_[index(stage)]) look(stage, ps, values);
+      if (held_[index(stage)]) look(stage, pixels_[*held_[index(stage)]], values);
     }
     if (leaves && unknown_ > 0) {
       --unknown_;
     } else if (leaves && !queue_.empty()) {
       pixels_[queue_.front()].left = clock_;
+      look(kOutputStage, pixels_[queue_.front()], values);
       queue_.pop_front();
     }
     for (int stage = kMostStages - 1; stage >= 0; --stage) {
@@ -111,6 +133,7 @@ class Follower {
       held.reset();
     }
     ++clock_;
+    since_ps_ = ps;
   }
   // What was recorded ends here for a while.
   void gap() {
@@ -156,14 +179,13 @@ class Follower {
     }
     return pixels;
   }
-  // The pixel that a stage holds, and its signals there.
-  void look(int stage, std::uint64_t ps, const std::vector<std::string>& values) {
-    TracedPixel& pixel = pixels_[*held_[index(stage)]];
+  // Takes the signals that a stage has of the pixel.
+  void look(int stage, TracedPixel& pixel, const std::vector<std::string>& values) {
     if (stage == 1) {
       pixel.x = number(values, fmt::format("{}.s1_x", kDatapath), kCoordinateBits);
       pixel.y = number(values, fmt::format("{}.s1_y", kDatapath), kCoordinateBits);
     }
-    pixel.ps[index(stage)] = ps;
+    pixel.ps[index(stage)] = since_ps_;
     for (const auto& [name, variable, width] : registers_[index(stage)]) {
       pixel.signals[name] = padded(values[variable], width);
     }
@@ -183,7 +205,7 @@ class Follower {
     std::size_t variable;
     int width;
   };
-  std::array<std::vector<Register>, kMostStages> registers_;  // by the stage that they belong to
+  std::array<std::vector<Register>, kMostStages + 1> registers_;  // by the stage they belong to
   std::array<std::optional<std::size_t>, kMostStages> held_{};
   std::deque<std::size_t> queue_;
   std::array<std::optional<std::size_t>, kMostStages> valid_{};  // variables of the stages' bits
@@ -192,6 +214,7 @@ class Follower {
   int unknown_ = 0;    // pixels inside that entered before
   std::vector<TracedPixel> pixels_;
   int clock_ = 0;
+  std::uint64_t since_ps_ = 0;  // the last edge, from which on the values are what they are
 };
 
 // All implementations of pixel_datapath in a file.
@@ -287,8 +310,9 @@ std::optional<int> least_latency(const std::vector<TracedPixel>& pixels) {
   return least;
 }
 
-TraceComparison compare(const Follower& a, const Follower& b) {
+TraceComparison compare(const Follower& a, const Follower& b, bool same_record) {
   TraceComparison result;
+  result.same_record = same_record;
   result.a_scope = a.scope();
   result.b_scope = b.scope();
   result.a_pixels = a.pixels().size();
@@ -299,6 +323,12 @@ TraceComparison compare(const Follower& a, const Follower& b) {
   for (const auto& [name, stage] : stages_of_signals()) {
     if (a.variables().count(name) != 0 && b.variables().count(name) != 0) {
       common.emplace_back(stage, name);
+    }
+  }
+  for (const std::string_view output : kOutputs) {
+    const std::string name = fmt::format("{}.{}", kDatapath, output);
+    if (a.variables().count(name) != 0 && b.variables().count(name) != 0) {
+      common.emplace_back(kOutputStage, name);
     }
   }
   std::stable_sort(common.begin(), common.end(),
@@ -328,6 +358,18 @@ TraceComparison compare(const Follower& a, const Follower& b) {
           i, one.x, one.y, name, first->second, second->second, one.ps[s], other.ps[s]};
       return result;
     }
+    if (same_record && one.left.has_value() != other.left.has_value()) {
+      const auto leaves = [](const TracedPixel& pixel) { return pixel.left ? "1" : "0"; };
+      result.first = TraceDifference{i,
+                                     one.x,
+                                     one.y,
+                                     fmt::format("{}.pixel_valid", kDatapath),
+                                     leaves(one),
+                                     leaves(other),
+                                     one.ps[kOutputStage],
+                                     other.ps[kOutputStage]};
+      return result;
+    }
     ++result.compared;
   }
   return result;
@@ -337,7 +379,17 @@ TraceComparison compare(const Follower& a, const Follower& b) {
 
 bool TraceDiff::same() const {
   return std::all_of(comparisons.begin(), comparisons.end(),
-                     [](const TraceComparison& c) { return !c.first && c.compared > 0; });
+                     [](const TraceComparison& c) { return c.same(); });
+}
+
+// Of a file that was cut before a pixel that both have, nothing can be said.
+void refuse_if_too_short(const TraceDiff& diff, const std::filesystem::path& file, bool complete) {
+  const bool nothing =
+      std::all_of(diff.comparisons.begin(), diff.comparisons.end(),
+                  [](const TraceComparison& c) { return c.compared == 0 && !c.first.has_value(); });
+  if (complete || !nothing) return;
+  throw InputError(
+      fmt::format("{}: cut before a pixel that both traces have", printable(file.string())));
 }
 
 TraceDiff diff_traces(const std::filesystem::path& a_file, const std::filesystem::path& b_file) {
@@ -352,7 +404,7 @@ TraceDiff diff_traces(const std::filesystem::path& a_file, const std::filesystem
                                    printable(a_file.string())));
     }
     for (std::size_t i = 1; i < a.followers.size(); ++i) {
-      diff.comparisons.push_back(compare(a.followers.front(), a.followers[i]));
+      diff.comparisons.push_back(compare(a.followers.front(), a.followers[i], true));
     }
     return diff;
   }
@@ -360,12 +412,14 @@ TraceDiff diff_traces(const std::filesystem::path& a_file, const std::filesystem
   diff.b_complete = b.complete;
   for (const Follower& one : a.followers) {
     for (const Follower& other : b.followers) {
-      if (one.scope() == other.scope()) diff.comparisons.push_back(compare(one, other));
+      if (one.scope() == other.scope()) diff.comparisons.push_back(compare(one, other, false));
     }
   }
   if (diff.comparisons.empty()) {
-    diff.comparisons.push_back(compare(a.followers.front(), b.followers.front()));
+    diff.comparisons.push_back(compare(a.followers.front(), b.followers.front(), false));
   }
+  refuse_if_too_short(diff, a_file, a.complete);
+  refuse_if_too_short(diff, b_file, b.complete);
   return diff;
 }
 

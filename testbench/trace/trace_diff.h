@@ -22,12 +22,15 @@ struct TraceDifference {
 
 // One pixel_datapath of each file, compared.
 struct TraceComparison {
-  std::string a_scope, b_scope;                           // "phongpipe.rtl"
+  std::string a_scope, b_scope;  // "phongpipe.rtl"
+  bool same_record = false;      // both in one file: then each has the pixels that the other has
   std::uint64_t a_pixels = 0, b_pixels = 0;               // in each trace
   std::uint64_t compared = 0;                             // pixels that both have
   std::size_t signals = 0;                                // that both have
   std::optional<int> a_latency_cycles, b_latency_cycles;  // the least of all pixels
   std::optional<TraceDifference> first;
+
+  bool same() const { return !first && compared > 0 && (!same_record || a_pixels == b_pixels); }
 };
 
 struct TraceDiff {
@@ -39,7 +42,8 @@ struct TraceDiff {
 
 // Compares the implementations that both files have, by the name of their scope; if they have none
 // in common, the first of each. `a` and `b` may be the same file: then its implementations are
-// compared with each other. Throws InputError if a file is no waveform, or has no pixel_datapath.
+// compared with each other. Throws InputError if a file is no waveform, has no pixel_datapath, or
+// was cut before a pixel that both have.
 TraceDiff diff_traces(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace phongpipe

@@ -1,27 +1,26 @@
 #include "testbench/trace/wave_format.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "model/scene/input_error.h"
 #include "model/scene/tool_error.h"
 #include "testbench/system/output_file.h"
 
 namespace phongpipe {
 namespace fs = std::filesystem;
 
-PartialFile::PartialFile(const fs::path& file)
-    : file_(file), partial_(file.string() + fmt::format(".partial-{}", getpid())) {
+PartialFile::PartialFile(const fs::path& file) : file_(file) {
   check_writable(file);
-}
-
-PartialFile::~PartialFile() {
-  std::error_code ignored;
-  fs::remove(partial_, ignored);
+  try {
+    folder_ = std::make_unique<ToolFolder>(fs::absolute(file).parent_path());
+  } catch (const ToolError& error) {
+    throw InputError(error.what());
+  }
 }
 
 void PartialFile::complete() const {
   std::error_code error;
-  fs::rename(partial_, file_, error);
+  fs::rename(name(), file_, error);
   if (error) fail(error.message());
 }
 

@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "model/files/text_file.h"
+#include "testbench/rtl/tool_folder.h"
 #include "testbench/system/terminal.h"
 #include "testbench/trace/wave_file.h"
 
@@ -32,21 +34,19 @@ void change_scope(const std::string& from, const std::string& to, const Begin& b
   }
 }
 
-// The file under another name until it is complete.
+// The file in a folder of its own, beside its place, until it is complete.
 class PartialFile {
  public:
+  // Throws InputError if the file cannot be written.
   explicit PartialFile(const std::filesystem::path& file);
-  ~PartialFile();
-  PartialFile(const PartialFile&) = delete;
-  PartialFile& operator=(const PartialFile&) = delete;
 
-  const std::string& name() const { return partial_; }
+  std::string name() const { return folder_->path() / file_.filename(); }
   void complete() const;
   [[noreturn]] void fail(const std::string& reason) const;
 
  private:
   std::filesystem::path file_;
-  std::string partial_;
+  std::unique_ptr<ToolFolder> folder_;
 };
 
 // Splits "v [9:-16]" and "v[9:-16]" into name and width; without a range the width is given.

@@ -15,7 +15,7 @@ namespace {
 
 // Properties without effect on Phong shading, or that only ray tracing or physically based shading
 // has.
-constexpr std::array<std::string_view, 10> kWithoutEffect = {
+constexpr std::array<std::string_view, 10> kPropertiesWithoutEffect = {
     "Ni", "sharpness", "Pr", "Pm", "Ps", "Pc", "Pcr", "aniso", "anisor", "interpolateMode"};
 
 // Properties that would change the picture unless they have this value.
@@ -133,7 +133,7 @@ class MtlReader {
   void leave_out(const Statement& statement) {
     const std::string_view keyword = statement.keyword;
     const auto is = [&](std::string_view known) { return known == keyword; };
-    if (std::any_of(kWithoutEffect.begin(), kWithoutEffect.end(), is)) return;
+    if (std::any_of(kPropertiesWithoutEffect.begin(), kPropertiesWithoutEffect.end(), is)) return;
     for (const LeftOut& property : kLeftOut) {
       if (!is(property.keyword)) continue;
       const bool neutral = std::all_of(

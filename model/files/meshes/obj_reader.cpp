@@ -18,7 +18,7 @@ namespace phongpipe {
 namespace {
 
 // Statements that change nothing in the picture: groups, smoothing groups, display attributes.
-constexpr std::array<std::string_view, 14> kWithoutEffect = {
+constexpr std::array<std::string_view, 14> kStatementsWithoutEffect = {
     "g",   "o",      "s",      "mg",         "bevel",     "c_interp", "d_interp",
     "lod", "maplib", "usemap", "shadow_obj", "trace_obj", "ctech",    "stech"};
 // Free-form curves and surfaces, of which only a surface would be drawn.
@@ -141,7 +141,7 @@ class ObjReader {
     } else if (contains(kFreeForm, keyword)) {
       note_once(keyword == "surf" || keyword == "curv" || keyword == "curv2", free_form_noted_,
                 "free-form curves and surfaces left out");
-    } else if (!contains(kWithoutEffect, keyword)) {
+    } else if (!contains(kStatementsWithoutEffect, keyword)) {
       fail(fmt::format("'{}' is not a statement of OBJ files", excerpt(keyword)));
     }
   }

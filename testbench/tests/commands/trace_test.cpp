@@ -11,15 +11,18 @@ namespace fs = std::filesystem;
 
 class TraceProgram : public Program {
  protected:
-  // RTL with a fault in one pixel.
+  // RTL with a fault: of the highlight in one pixel.
   std::string faulty_rtl() {
+    constexpr const char* kCorrect = "highlight[5:2], s1_highlight";
+    return faulty_rtl(kCorrect, std::string(kCorrect) + " ^ (s1_x == 100 && s1_y == 120)");
+  }
+  std::string faulty_rtl(const std::string& correct, const std::string& broken) {
     fs::create_directories(folder_ / "rtl");
     for (const auto& entry : fs::directory_iterator(PHONGPIPE_HARDWARE)) {
       if (entry.is_regular_file()) fs::copy(entry.path(), folder_ / "rtl");
     }
     std::string text = read_whole_file(file("rtl/pixel_datapath.sv"));
-    const std::string correct = "highlight[5:2], s1_highlight";
-    text.replace(text.find(correct), correct.size(), correct + " ^ (s1_x == 100 && s1_y == 120)");
+    text.replace(text.find(correct), correct.size(), broken);
     write("rtl/pixel_datapath.sv", text);
     setenv("XDG_CACHE_HOME", file("cache").c_str(), 1);
     return file("rtl");
@@ -90,6 +93,18 @@ TEST_F(TraceProgram, AFaultIsNamedTracedAndReplayed) {
   EXPECT_EQ(mended.status, 0) << mended.text;
   EXPECT_NE(mended.text.find("recorded was pixel_datapath.s2_highlight"), std::string::npos)
       << mended.text;
+}
+
+// No register differs, only what leaves.
+TEST_F(TraceProgram, AFaultAtTheOutputIsDifferent) {
+  const std::string rtl =
+      faulty_rtl(".place({s1_x, s1_y})", ".place({s1_x ^ X_BITS'(s1_x == 100), s1_y})");
+  const ProcessOutput output = run({"verify", "sphere", "--rtl", rtl, "--out", file("out")});
+  EXPECT_EQ(output.status, 1) << output.text;
+  EXPECT_EQ(output.text.find("Warning"), std::string::npos) << output.text;
+  const ProcessOutput diff = run({"diff-traces", file("out/sphere.fst"), file("out/sphere.fst")});
+  EXPECT_EQ(diff.status, 1) << diff.text;
+  EXPECT_NE(diff.text.find("pixel_datapath.pixel_x of the pixel"), std::string::npos) << diff.text;
 }
 
 // The library that reads FST files trusts them; it crashes, loops and ends the process.

@@ -8,6 +8,7 @@
 
 #include "testbench/cases/format_range.h"
 #include "testbench/rtl/rtl_builder.h"
+#include "testbench/rtl/tool_folder.h"
 #include "testbench/system/process.h"
 
 namespace phongpipe {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "testbench/rtl/rtl_builder.h"
+#include "testbench/rtl/tool_folder.h"
 #include "testbench/system/output_file.h"
 #include "testbench/system/process.h"
 

@@ -81,7 +81,7 @@ Work work_of(const FrameSetup& frame, const PipelineConfiguration& pipeline) {
   return work;
 }
 
-void expect_same(const Trace& recorded, const Trace& plain) {
+void expect_undisturbed(const Trace& recorded, const Trace& plain) {
   EXPECT_TRUE(equal_fields(recorded.counts.pixel_operations, plain.counts.pixel_operations));
   EXPECT_EQ(recorded.counts.frame_cycles, plain.counts.frame_cycles);
   EXPECT_TRUE(recorded.stream == plain.stream);
@@ -98,7 +98,7 @@ bool just_was(const std::vector<std::uint32_t>& values, std::size_t cycle, int v
 void expect_accounted(const FrameSetup& frame, const PipelineConfiguration& pipeline,
                       const SimulationOptions& options) {
   const RecordedActivity recorded = record(frame, pipeline, options);
-  expect_same(recorded.trace, simulate_apart(frame, pipeline, options));
+  expect_undisturbed(recorded.trace, simulate_apart(frame, pipeline, options));
   EXPECT_TRUE(recorded.complete);
   const SimulationCounts& counts = recorded.trace.counts;
   const auto pixels = static_cast<std::int64_t>(recorded.trace.stream.size());

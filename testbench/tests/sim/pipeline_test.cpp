@@ -22,6 +22,8 @@ void expect_same(const Trace& by_span, const Trace& by_clock) {
   EXPECT_EQ(by_span.counts.failure, "");
   EXPECT_EQ(by_clock.counts.failure, "");
   EXPECT_EQ(by_span.counts.setup_cycles, by_clock.counts.setup_cycles);
+  EXPECT_EQ(by_span.counts.walker_cycles, by_clock.counts.walker_cycles);
+  EXPECT_EQ(by_span.counts.framebuffer_cycles, by_clock.counts.framebuffer_cycles);
   EXPECT_EQ(by_span.counts.rom_load_cycles, by_clock.counts.rom_load_cycles);
   EXPECT_EQ(by_span.counts.datapath_cycles, by_clock.counts.datapath_cycles);
   EXPECT_EQ(by_span.counts.frame_cycles, by_clock.counts.frame_cycles);

@@ -24,10 +24,6 @@ constexpr std::string_view kRooms[] = {
 // They stand beside the program and may include anything, but nothing includes them.
 constexpr std::string_view kOutside[] = {"testbench/tests/", "testbench/bench/", "testbench/fuzz/"};
 
-bool starts_with(std::string_view text, std::string_view prefix) {
-  return text.substr(0, prefix.size()) == prefix;
-}
-
 bool is_outside(std::string_view path) {
   return std::any_of(std::begin(kOutside), std::end(kOutside),
                      [path](std::string_view folder) { return starts_with(path, folder); });

@@ -14,6 +14,7 @@
 #include "sim/pipeline.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/cosim/stream_checker.h"
+#include "testbench/rtl/tool_folder.h"
 #include "testbench/system/output_file.h"
 #include "testbench/system/process.h"
 #include "testbench/trace/trace_diff.h"

@@ -6,11 +6,11 @@
 namespace phongpipe {
 namespace {
 
-constexpr unsigned kTriangles = 30;
+constexpr unsigned kReflectionTriangles = 30;
 
 // The point of eq. 27: whatever the length of N, N' is a unit vector.
 TEST(ReflectionShading, NormalsAreOfUnitLength) {
-  for (unsigned seed = 0; seed < kTriangles; ++seed) {
+  for (unsigned seed = 0; seed < kReflectionTriangles; ++seed) {
     OneTriangle t = random_triangle(90, seed);
     double square = 0;
     for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
@@ -23,7 +23,7 @@ TEST(ReflectionShading, NormalsAreOfUnitLength) {
 
 // Where N is of unit length, H lies halfway and N' = N.
 TEST(ReflectionShading, IsPhongWhereTheNormalIsOfUnitLength) {
-  for (unsigned seed = 0; seed < kTriangles; ++seed) {
+  for (unsigned seed = 0; seed < kReflectionTriangles; ++seed) {
     OneTriangle t = random_triangle(90, seed);
     t.corner(0, 100.5, 60.5, t.triangle.vertices[0].normal);
     EXPECT_NEAR(at(t, "reflection", 100, 60).diffuse, at(t, "duff", 100, 60).diffuse, 1e-12);
@@ -38,7 +38,7 @@ TEST(ReflectionShading, IsPhongWhereTheNormalIsOfUnitLength) {
 TEST(ReflectionShading, StaysWithinOneLsbOfPhongBelow30Degrees) {
   for (const char* name :
        {"reflection", "reflection-blinn", "reflection-hybrid", "reflection-eq34"}) {
-    for (unsigned seed = 0; seed < kTriangles; ++seed) {
+    for (unsigned seed = 0; seed < kReflectionTriangles; ++seed) {
       OneTriangle t = random_triangle(30, seed);
       t.scene.shading.highlight = *find_shading_method(name)->abilities.highlight;
       EXPECT_LE(largest_difference(t, name), 1) << name << ", seed " << seed;
@@ -58,7 +58,7 @@ OneTriangle with_light(LightType type, double distance, double spread, unsigned 
 }
 
 TEST(ReflectedVectors, FollowALightAtADistance) {
-  for (unsigned seed = 0; seed < kTriangles; ++seed) {
+  for (unsigned seed = 0; seed < kReflectionTriangles; ++seed) {
     for (const auto& [type, name] : {std::pair{LightType::point, "point-reflection"},
                                      std::pair{LightType::spot, "spot-reflection"}}) {
       EXPECT_LE(largest_difference(with_light(type, 2000, 20, seed), name), 1)
@@ -71,7 +71,7 @@ TEST(ReflectedVectors, FollowALightAtADistance) {
 }
 
 TEST(ReflectedVectors, FollowANearEye) {
-  for (unsigned seed = 0; seed < kTriangles; ++seed) {
+  for (unsigned seed = 0; seed < kReflectionTriangles; ++seed) {
     OneTriangle t = random_triangle(20, seed);
     t.scene.shading.highlight = Highlight::reflection;
     t.eye_at(Vec3(300, -200, 1500));
@@ -81,7 +81,7 @@ TEST(ReflectedVectors, FollowANearEye) {
 
 // One ulp more: a light whose vector does not change needs no approximation of its own.
 TEST(ReflectedVectors, WithEverythingAtInfinityAreReflectionShading) {
-  for (unsigned seed = 0; seed < kTriangles; ++seed) {
+  for (unsigned seed = 0; seed < kReflectionTriangles; ++seed) {
     OneTriangle t = random_triangle(40, seed);
     t.scene.shading.highlight = Highlight::reflection;
     EXPECT_LE(largest_difference(t, "point-reflection", "reflection-eq34"), 1e-9);
