@@ -291,9 +291,9 @@ void synthesize(VerificationResult& result) {
         technology.name));
   }
   const std::filesystem::path& sources = result.options.rtl_sources;
-  const MeasuredDesign design =
-      Netlist(datapath_target(result.configuration), sources.empty() ? installation().hardware : sources)
-          .place(technology.device, technology.package);
+  const MeasuredDesign design = Netlist(datapath_target(result.configuration),
+                                        sources.empty() ? installation().hardware : sources)
+                                    .place(technology.device, technology.package);
   result.clock = {design.clock_ns, FigureKind::measured, 0, design.limited_by};
   result.area = AreaFigure{FigureKind::measured, design.luts, design.registers, design.block_rams};
 }
