@@ -169,6 +169,10 @@ class TextReport {
                        story_.depth_test && v.light == 0 ? fmt::format(", depth {}", v.depth) : "",
                        list(channels_.of(v.color)), cycle_text(v.systemc_cycle),
                        cycle_text(v.rtl_cycle), fate(v)));
+      if (v.rtl_color.value_or(v.color) != v.color) {
+        line("", fmt::format("WRONG in the RTL: colour {}; `phongpipe verify` tells the register",
+                             list(channels_.of(*v.rtl_color))));
+      }
     }
   }
   static std::string cycle_text(const std::optional<std::int64_t>& cycle) {
@@ -382,6 +386,7 @@ ordered_json pixel_json(const PixelStory& story) {
          {"triangle", v.triangle},
          {"depth", v.depth},
          {"color", channels.of(v.color)},
+         {"rtl_color", v.rtl_color ? ordered_json(channels.of(*v.rtl_color)) : ordered_json()},
          {"held_by", or_null(v.held_by)},
          {"taken", v.taken},
          {"cycle", {{"systemc", or_null(v.systemc_cycle)}, {"rtl", or_null(v.rtl_cycle)}}}});

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 #include "model/fixed/depth_cue.h"
 #include "model/scene/input_error.h"
@@ -258,12 +260,17 @@ class StoryTeller {
 };
 
 // The cycles in which the pixel leaves pixel_datapath; SystemC's own, without a library.
-std::vector<std::int64_t> exit_cycles(const FrameSetup& frame, const PixelStory& story,
-                                      SimulationOptions options, const RtlLibrary* library) {
-  std::vector<std::int64_t> exits;
+// The cycle in which a pixel leaves an implementation, and its colour.
+using Exit = std::pair<std::int64_t, std::uint32_t>;
+
+std::vector<Exit> exits_of(const FrameSetup& frame, const PixelStory& story,
+                           SimulationOptions options, const RtlLibrary* library) {
+  std::vector<Exit> exits;
   options.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
-      if (pixels[i].x == story.x && pixels[i].y == story.y) exits.push_back(cycles[i]);
+      if (pixels[i].x == story.x && pixels[i].y == story.y) {
+        exits.emplace_back(cycles[i], pixels[i].color);
+      }
     }
   };
   std::optional<RtlDatapath> datapath;
@@ -321,23 +328,27 @@ void add_cycles(const PreparedFrame& frame, const RtlLibrary& library,
                 const SimulationOptions& simulation, PixelStory& story) {
   const auto simulate_with = [&](const RtlLibrary* datapath) {
     return [&frame, &story, &simulation, datapath] {
-      return to_bytes(exit_cycles(frame.setup, story, simulation, datapath));
+      return to_bytes(exits_of(frame.setup, story, simulation, datapath));
     };
   };
   Child rtl(simulate_with(&library)), systemc(simulate_with(nullptr));
-  const auto add = [&story](Child& child, const char* name,
-                            std::optional<std::int64_t> PixelVisit::*cycle) {
-    const auto cycles = from_bytes<std::vector<std::int64_t>>(child.get());
-    if (cycles.size() != story.visits.size()) {
+  const auto wait_for = [&story](Child& child, const char* name) {
+    auto exits = from_bytes<std::vector<Exit>>(child.get());
+    if (exits.size() != story.visits.size()) {
       throw ToolError(fmt::format(
           "{} delivers pixel {},{} {} times, the model {}; `phongpipe verify` tells where they "
           "differ",
-          name, story.x, story.y, cycles.size(), story.visits.size()));
+          name, story.x, story.y, exits.size(), story.visits.size()));
     }
-    for (std::size_t i = 0; i < cycles.size(); ++i) story.visits[i].*cycle = cycles[i];
+    return exits;
   };
-  add(systemc, "SystemC", &PixelVisit::systemc_cycle);
-  add(rtl, "the RTL", &PixelVisit::rtl_cycle);
+  const std::vector<Exit> from_systemc = wait_for(systemc, "SystemC");
+  const std::vector<Exit> from_rtl = wait_for(rtl, "the RTL");
+  for (std::size_t i = 0; i < story.visits.size(); ++i) {
+    PixelVisit& visit = story.visits[i];
+    visit.systemc_cycle = from_systemc[i].first;
+    std::tie(visit.rtl_cycle, visit.rtl_color) = from_rtl[i];
+  }
 }
 
 }  // namespace phongpipe

@@ -27,6 +27,7 @@ struct PixelVisit {
   std::optional<std::uint32_t> held_by;                  // the triangle that had the pixel before
   bool taken = false;                                    // written or added by the framebuffer
   std::optional<std::int64_t> systemc_cycle, rtl_cycle;  // in which it leaves; see add_cycles()
+  std::optional<std::uint32_t> rtl_color;                // the model's, if the RTL is right
 };
 
 // A series that was not set up, or not wholly.

@@ -76,7 +76,10 @@ TEST_F(TraceProgram, AFaultIsNamedTracedAndReplayed) {
   EXPECT_EQ(run({"diff-traces", file("out/sphere.fst"), file("out/sphere.fst")}).status, 1)
       << "RTL and SystemC differ there";
 
-  EXPECT_EQ(run({"explain", "sphere", "--pixel", "100,120", "--rtl", rtl}).status, 0);
+  const ProcessOutput story = run({"explain", "sphere", "--pixel", "100,120", "--rtl", rtl});
+  EXPECT_EQ(story.status, 0) << story.text;
+  EXPECT_NE(story.text.find("WRONG in the RTL: colour"), std::string::npos) << story.text;
+  EXPECT_EQ(run({"explain", "sphere", "--pixel", "100,120"}).text.find("WRONG"), std::string::npos);
   expect_refused({"explain", "sphere", "--worst", "--rtl", "/nosuch"}, "/nosuch");
 
   const ProcessOutput unwritable =
