@@ -63,9 +63,9 @@ TEST_F(Explain, CyclesAreThoseOfTheBackPressureAskedFor) {
 
 TEST_F(Explain, PartsInJsonAddUpToTheErrorExactly) {
   // In the last one a normal vanishes, and the coefficients of its series are no numbers.
-  for (const char* scene : {"teapot", "effects/two-lights", "effects/depth-cue",
-                            PHONGPIPE_SOURCES
-                            "/testbench/hard_cases/normals/cancel-at-the-centroid.toml"}) {
+  for (const char* scene :
+       {"teapot", "effects/two-lights", "effects/depth-cue",
+        PHONGPIPE_SOURCES "/testbench/hard_cases/normals/cancel-at-the-centroid.toml"}) {
     const Json story = explain({scene, "--worst"});
     const std::size_t channels = story["output"].size();
     ASSERT_EQ(story["error_parts"].size(), 7U);
