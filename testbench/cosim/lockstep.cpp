@@ -215,9 +215,8 @@ std::optional<SignalDivergence> find_signal_divergence(
       simulate(frame, pipeline, options);
       // The span alone shows the fault, so that no other pixel is the cause; its cycle is not known
       // where the output waits.
-      const bool in_span = found.has_value();
-      found = lockstep.found();
-      if (in_span && lockstep.found_in_pixel()) found = lockstep.found_in_pixel();
+      if (found) found = lockstep.found_in_pixel();
+      if (!found) found = lockstep.found();
     }
     return nlohmann::json(found).dump();
   });

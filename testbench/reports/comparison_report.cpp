@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <type_traits>
 
 #include "testbench/campaign/pareto.h"
 #include "testbench/drawing/pictures.h"
@@ -106,6 +108,19 @@ MetricValue count(std::size_t value) {
   return static_cast<std::int64_t>(value);
 }
 
+// A figure of the hardware that shades a pixel a clock, if the card has units.
+template <auto figure>
+MetricValue of_hardware(const MethodResult& r, const Comparison& comparison) {
+  const auto hardware = hardware_of(r, comparison);
+  if (!hardware) return {};
+  const auto value = std::invoke(figure, *hardware);
+  if constexpr (std::is_integral_v<decltype(value)>) {
+    return count(static_cast<std::size_t>(value));
+  } else {
+    return value;
+  }
+}
+
 constexpr MethodColumn kMethodColumns[] = {
     {"add", "", "additions for a pixel", Better::less, true,
      [](const MethodResult& r, const Comparison&) { return count(of_a_pixel(r).add); }},
@@ -125,31 +140,14 @@ constexpr MethodColumn kMethodColumns[] = {
     {"ns_per_pixel", "ns", "the same as time", Better::less, true,
      [](const MethodResult& r, const Comparison&) -> MetricValue { return r.ns_per_pixel; }},
     {"luts", "", "of hardware that shades a pixel a clock: a unit for each operation", Better::less,
-     true,
-     [](const MethodResult& r, const Comparison& c) {
-       const auto hardware = hardware_of(r, c);
-       return hardware ? count(static_cast<std::size_t>(hardware->luts)) : MetricValue();
-     }},
+     true, of_hardware<&UnitHardware::luts>},
     {"registers", "", "of the same, in bits", Better::less, true,
-     [](const MethodResult& r, const Comparison& c) {
-       const auto hardware = hardware_of(r, c);
-       return hardware ? count(static_cast<std::size_t>(hardware->registers)) : MetricValue();
-     }},
-    {"block_rams", "", "of the same", Better::less, true,
-     [](const MethodResult& r, const Comparison& c) {
-       const auto hardware = hardware_of(r, c);
-       return hardware ? count(static_cast<std::size_t>(hardware->block_rams)) : MetricValue();
-     }},
+     of_hardware<&UnitHardware::registers>},
+    {"block_rams", "", "of the same", Better::less, true, of_hardware<&UnitHardware::block_rams>},
     {"unit_clock_ns", "ns", "clock of its slowest unit, and time of a pixel", Better::less, true,
-     [](const MethodResult& r, const Comparison& c) -> MetricValue {
-       const auto hardware = hardware_of(r, c);
-       return hardware ? MetricValue(hardware->clock_ns) : MetricValue();
-     }},
+     of_hardware<&UnitHardware::clock_ns>},
     {"lut_ns", "ns", "area × time: LUTs of that hardware times its clock", Better::less, true,
-     [](const MethodResult& r, const Comparison& c) -> MetricValue {
-       const auto hardware = hardware_of(r, c);
-       return hardware ? MetricValue(hardware->lut_ns()) : MetricValue();
-     }},
+     of_hardware<&UnitHardware::lut_ns>},
     {"speed_over_phong", "", "as software on this machine, exact Phong's being 1", Better::more,
      true,
      [](const MethodResult& r, const Comparison& c) -> MetricValue {

@@ -254,13 +254,14 @@ void report_effects(Page& page, const VerificationResult& r) {
 // How far each block is from the budget, and what would balance them.
 void report_blocks(Page& page, const VerificationResult& r) {
   page.plain("blocks");
+  const std::string_view limiting = r.limiting_block().block;
   for (const BlockLoad& load : r.block_loads()) {
     const double ns = r.ns_per_pixel(load), slack_ns = r.options.budget_ns - ns;
     const std::string slack = fmt::format("slack {:8.2f} ns", slack_ns);
     page.plain(fmt::format("  {:<14} {:>13} cycles {:8.2f} ns a pixel, {}{}", load.block,
                            count_text(static_cast<std::uint64_t>(load.cycles)), ns,
                            slack_ns < 0 ? page.toned(Tone::bad, slack) : slack,
-                           load.block == r.limiting_block().block ? ", limits the frame" : ""));
+                           load.block == limiting ? ", limits the frame" : ""));
   }
   page.plain(fmt::format("  {:<14} {}", "clock",
                          r.clock.limited_by.empty() ? "what limits it is not known"
