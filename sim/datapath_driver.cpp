@@ -48,7 +48,8 @@ std::string DatapathDriver::misbehaviour(std::int64_t patience_clocks) const {
     return fmt::format("pixel_datapath has emitted {} pixels that no span asked for",
                        unasked_pixels_);
   }
-  if (idle_clocks_ > 2 * patience_clocks + kIdleClocks * pixels_) {
+  const std::int64_t for_each_pixel = frame_->configuration.latency_cycles() + kIdleClocks;
+  if (idle_clocks_ > 2 * patience_clocks + for_each_pixel * pixels_) {
     return fmt::format(
         "pixel_datapath was idle in {} clocks with work at hand and its output free, over {} "
         "pixels",

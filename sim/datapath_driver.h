@@ -29,13 +29,13 @@ class DatapathDriver {
 
   // Why the simulation should stop; empty if it should not. Either the datapath has emitted more
   // than kUnaskedPixels pixels that belong to no span, or it has been idle, with work pending and
-  // its output free, in more than 2 · `patience_clocks` + kIdleClocks · (pixels of all spans taken)
-  // clocks.
+  // its output free, in more than 2 · `patience_clocks` + (latency + kIdleClocks) · (pixels of all
+  // spans taken) clocks.
   std::string misbehaviour(std::int64_t patience_clocks) const;
 
  private:
   static constexpr std::int64_t kUnaskedPixels = 1000;
-  static constexpr std::int64_t kIdleClocks = 16;  // for each pixel; more than the latency
+  static constexpr std::int64_t kIdleClocks = 3;
   static constexpr std::uint32_t kNoTable = ~std::uint32_t{0};
 
   const FrameSetup* frame_;

@@ -11,7 +11,10 @@ DatapathRegisters::DatapathRegisters(const DatapathConfiguration& configuration,
                                      const OutputColor& cue_color)
     : configuration_(configuration),
       cue_color_(cue_color),
-      stages_(static_cast<std::size_t>(datapath_stages(configuration))) {
+      serial_clocks_(configuration.kind == DatapathKind::serial
+                         ? configuration.interval_cycles() - kSerialStages
+                         : 0),
+      stages_(static_cast<std::size_t>(datapath_stages(configuration) + serial_clocks_)) {
   const ForwardDifferencer diffuse(configuration.diffuse_width());
   for (Stepper& stepper : diffuse_) stepper.now = diffuse;
   specular_.now = ForwardDifferencer(configuration.specular_width());
@@ -26,6 +29,7 @@ DatapathRegisters::DatapathRegisters(const DatapathConfiguration& configuration,
 void DatapathRegisters::reset() {
   for (DatapathPixel& pixel : stages_) pixel.valid = false;
   last_ = {};
+  until_next_ = 0;
   queue_.clear();
   free_ = kPixelQueueSlots;
   left_ = pixel_valid_ = false;
@@ -33,15 +37,15 @@ void DatapathRegisters::reset() {
 
 std::size_t DatapathRegisters::pixels_after(int stage) const {
   std::size_t pixels = queue_.size() + (pixel_valid_ ? 1 : 0);
-  for (int later = stage + 1; later < static_cast<int>(stages_.size()); ++later) {
-    pixels += in_stage(later).valid ? 1 : 0;
+  for (std::size_t clocks = clocks_to(stage) + 1; clocks < stages_.size(); ++clocks) {
+    pixels += after_clocks(clocks).valid ? 1 : 0;
   }
   return pixels;
 }
 
 DatapathOutputs DatapathRegisters::outputs() const {
   const bool open = last_.remaining <= 1;  // the next pixel is of another span
-  return {free_ > 0 && open, pixel_valid_, output_};
+  return {free_ > 0 && until_next_ == 0 && open, pixel_valid_, output_};
 }
 
 void DatapathRegisters::Stepper::load(const SeriesStart& start, bool stepping) {
@@ -134,13 +138,13 @@ DatapathOutputs DatapathRegisters::clock(const DatapathInputs& inputs) {
   const DatapathOutputs before = outputs();
   const bool read = !queue_.empty() && (!pixel_valid_ || inputs.pixel_ready);
   const bool leaves = pixel_valid_ && inputs.pixel_ready;
-  const bool room = free_ > 0;
+  const bool room = free_ > 0 && until_next_ == 0;
   if (read) {
     output_ = queue_.front();
     queue_.pop_front();
   }
   pixel_valid_ = read || (pixel_valid_ && !inputs.pixel_ready);
-  const DatapathPixel& whole = in_stage(static_cast<int>(stages_.size()) - 1);
+  const DatapathPixel& whole = after_clocks(stages_.size() - 1);
   if (whole.valid) queue_.push_back({whole.x, whole.y, whole.color});
   free_ += (left_ ? 1 : 0) - (in_stage(0).valid ? 1 : 0);
   left_ = leaves;
@@ -153,6 +157,7 @@ DatapathOutputs DatapathRegisters::clock(const DatapathInputs& inputs) {
   } else {
     enters = false;
   }
+  until_next_ = enters ? configuration_.interval_cycles() - 1 : std::max(0, until_next_ - 1);
   head_ = (head_ + stages_.size() - 1) % stages_.size();
   if (enters) {
     stages_[head_] = last_;

@@ -1,5 +1,5 @@
-// pixel_datapath, clock by clock and register by register: what hw/pixel_datapath.sv holds in every
-// clock, computed by the model's blocks.
+// pixel_datapath, clock by clock and register by register: what hw/pixel_datapath.sv and
+// hw/pixel_datapath_serial.sv hold in every clock, computed by the model's blocks.
 #pragma once
 
 #include <array>
@@ -17,7 +17,9 @@ namespace phongpipe {
 
 // Stages of the pipeline, by the number that RTL's names have: 0 takes the input, 1 the terms of
 // the series, which are whole in 4; 5 has the address, 6 whether the pixel is lit, 8 the words, 10
-// the sum, and the last one the faded colour under depth cueing.
+// the sum, and the last one the faded colour under depth cueing. The serial datapath has stage 0,
+// takes interval_cycles() clocks from there to stage 3, and has the same stages from there on.
+constexpr int kWholeStage = 3;  // of the serial datapath: all digits are there
 constexpr int kSeriesStage = 4;
 constexpr int kSumStage = kDatapathLatency - 3;  // the queue takes 3 clocks
 constexpr int kMostStages = kSumStage + kDepthCueLatency + 1;
@@ -64,8 +66,10 @@ class DatapathRegisters : public ClockedDatapath {
   // The outputs in this clock, before its edge.
   DatapathOutputs outputs() const;
 
-  const DatapathPixel& in_stage(int stage) const {
-    return stages_[(head_ + static_cast<std::size_t>(stage)) % stages_.size()];
+  const DatapathPixel& in_stage(int stage) const { return after_clocks(clocks_to(stage)); }
+  // Clocks from stage 0 to another one.
+  std::size_t clocks_to(int stage) const {
+    return static_cast<std::size_t>(stage < kWholeStage ? stage : stage + serial_clocks_);
   }
   // Pixels that entered before that of a stage, or before the one that will be next in it, and have
   // not left.
@@ -87,6 +91,10 @@ class DatapathRegisters : public ClockedDatapath {
     void load(const SeriesStart& start, bool stepping);
     void step(bool second);
   };
+  // The pixel that was in stage 0 so many clocks ago.
+  const DatapathPixel& after_clocks(std::size_t clocks) const {
+    return stages_[(head_ + clocks) % stages_.size()];
+  }
   std::size_t channels() const { return static_cast<std::size_t>(configuration_.channels); }
   void load(const Span& span);
   void step();
@@ -95,8 +103,10 @@ class DatapathRegisters : public ClockedDatapath {
   DatapathConfiguration configuration_;
   OutputColor cue_color_;
   std::array<std::vector<std::int32_t>, 3> table_;
-  std::vector<DatapathPixel> stages_;  // a ring
+  int serial_clocks_;  // from stage 0 to kWholeStage, more than in the pipelined datapath
+  std::vector<DatapathPixel> stages_;  // a ring, by the clocks since a pixel entered
   std::size_t head_ = 0;               // stage 0
+  int until_next_ = 0;                 // clocks in which no pixel can enter
   DatapathPixel last_;                 // that entered
   std::array<Stepper, 3> diffuse_;
   Stepper specular_, gate_, cue_;
@@ -110,10 +120,11 @@ class DatapathRegisters : public ClockedDatapath {
 // A register of pixel_datapath: where it is in RTL and here, and how to read it. Waveforms, views,
 // comparisons of registers and the life of a pixel are made from these descriptions.
 struct DatapathSignal {
-  std::string scope;    // the block below pixel_datapath, as "specular.rom"; empty: pixel_datapath
-  std::string name;     // as "s5_address"
-  int stage = 0;        // whose pixel it belongs to
-  bool always = false;  // of the control: has a meaning even if no pixel is in the stage
+  std::string
+      scope;  // the block below pixel_datapath, as "color.specular.rom"; empty: pixel_datapath
+  std::string name;         // as "s5_address"
+  int stage = 0;            // whose pixel it belongs to
+  bool always = false;      // of the control: has a meaning even if no pixel is in the stage
   bool only_first = false;  // has a meaning for the first pixel of a span only
   int width = 1;            // bits
   int fraction_bits = 0;    // of them, below one unit
@@ -128,7 +139,7 @@ struct DatapathSignal {
     const DatapathPixel& pixel = registers.in_stage(stage);
     return always || (pixel.valid && (!only_first || pixel.step == 0));
   }
-  // "pixel_datapath.specular.rom".
+  // "pixel_datapath.color.specular.rom".
   std::string block() const;
   std::string full_name() const { return block() + "." + name; }
   // In units.

@@ -23,7 +23,9 @@ using Series = DatapathPixel::Series;
 class SignalTable {
  public:
   explicit SignalTable(const DatapathConfiguration& configuration)
-      : f_(configuration), stages_(datapath_stages(configuration)) {}
+      : f_(configuration),
+        serial_(configuration.kind == DatapathKind::serial),
+        stages_(datapath_stages(configuration)) {}
 
   std::vector<DatapathSignal> all() {
     add_control();
@@ -71,13 +73,18 @@ class SignalTable {
   }
 
   void add_control() {
-    add_flag(0, stages_ - 1, "", "valid", [](const Pixel& p) { return p.valid; });
-    for (DatapathSignal& valid : signals_) valid.always = true;
-    add_flag(0, 3, "", "first", [](const Pixel& p) { return p.step == 0; });
-    add_flag(1, 2, "", "restart", [](const Pixel& p) { return p.step <= 1; });
-    add(0, "", "remaining", kLengthBits, [](const Pixel& p) { return p.remaining; });
-    add(0, "", "ending", 1, [](const Pixel& p) { return p.remaining == 2; });
-    DatapathSignal& open = add(0, "", "open", 1, [](const Pixel&) { return 0; });
+    const auto valid = [](const Pixel& p) { return p.valid; };
+    if (serial_) add(0, "", "s0_valid", 1, valid);
+    add_flag(serial_ ? kWholeStage : 0, stages_ - 1, "", "valid", valid);
+    for (DatapathSignal& signal : signals_) signal.always = true;
+    if (!serial_) {
+      add_flag(0, 3, "", "first", [](const Pixel& p) { return p.step == 0; });
+      add_flag(1, 2, "", "restart", [](const Pixel& p) { return p.step <= 1; });
+    }
+    const char* const control = "control";
+    add(0, control, "remaining", kLengthBits, [](const Pixel& p) { return p.remaining; });
+    add(0, control, "ending", 1, [](const Pixel& p) { return p.remaining == 2; });
+    DatapathSignal& open = add(0, control, "open", 1, [](const Pixel&) { return 0; });
     open.value = [](const DatapathRegisters& r) -> std::int64_t { return r.between_spans(); };
     open.always = true;
     const auto add_count = [this](int stage, const char* name, auto count) {
@@ -97,10 +104,11 @@ class SignalTable {
   }
 
   void add_span() {
-    add(1, "", "s1_x", kCoordinateBits, [](const Pixel& p) { return p.x; });
-    add(1, "", "s1_y", kCoordinateBits, [](const Pixel& p) { return p.y; });
+    const int place = serial_ ? 0 : 1;
+    add(place, "", at(place, "x"), kCoordinateBits, [](const Pixel& p) { return p.x; });
+    add(place, "", at(place, "y"), kCoordinateBits, [](const Pixel& p) { return p.y; });
     for (int c = 0; c < f_.channels; ++c) {
-      for (int stage = 1; stage <= 3; ++stage) {
+      for (int stage = serial_ ? kWholeStage : 1; stage <= 3; ++stage) {
         DatapathSignal& level =
             add(stage, fmt::format("channel[{}]", c), at(stage, "level"), f_.diffuse_width(),
                 [c](const Pixel& p) { return p.level[static_cast<std::size_t>(c)]; });
@@ -129,6 +137,11 @@ class SignalTable {
         return of(p).*part >> low;
       }).is_signed = true;
     };
+    if (serial_) {
+      whole(kWholeStage, "v", &Series::v);
+      whole(kSeriesStage, "v", &Series::v);
+      return;
+    }
     whole(0, "start_v", &Series::term);
     signals_.back().only_first = true;
     whole(1, "term", &Series::term);
@@ -164,7 +177,7 @@ class SignalTable {
                  [](const Pixel& p) -> const Series& { return p.specular; });
     }
     if (f_.has_gate_series()) {
-      add_series("specular.gate.gate_series", "LSB", f_.diffuse_width(), f_.diffuse_fraction_bits,
+      add_series("gate.gate_series", "LSB", f_.diffuse_width(), f_.diffuse_fraction_bits,
                  [](const Pixel& p) -> const Series& { return p.gate; });
     }
     if (f_.depth_cue) {
@@ -175,22 +188,23 @@ class SignalTable {
 
   void add_specular() {
     if (!f_.specular) return;
-    add(1, "", "s1_highlight", 1, [](const Pixel& p) { return p.highlight; });
-    add_flag(2, 6, "", "highlight", [](const Pixel& p) { return p.highlight; });
-    add(5, "specular.rom", "s5_address", f_.rom_address_bits, [](const Pixel& p) {
+    add_span_flag("highlight", [](const Pixel& p) { return p.highlight; });
+    add_flag(4, 6, kColor, "highlight", [](const Pixel& p) { return p.highlight; });
+    add(5, kSpecular + ".rom", "s5_address", f_.rom_address_bits, [](const Pixel& p) {
       return p.address;
     }).unit = "address";
     if (f_.has_gate_series()) {
-      add(5, "specular.gate", "s5_negative", 1, [](const Pixel& p) { return p.gate.v < 0; });
-      add(5, "specular.gate", "s5_zero", 1, [](const Pixel& p) { return p.gate.v == 0; });
+      const std::string gate = kSpecular + ".gate";
+      add(5, gate, "s5_negative", 1, [](const Pixel& p) { return p.gate.v < 0; });
+      add(5, gate, "s5_zero", 1, [](const Pixel& p) { return p.gate.v == 0; });
     }
     if (f_.rom_layout == RomLayout::plain) {
       add_plain_table();
     } else {
       add_octave_tables();
     }
-    add(7, "specular", "s7_open", 1, [](const Pixel& p) { return p.open; });
-    add(8, "", "s8_open", 1, [](const Pixel& p) { return p.open; });
+    add(7, kSpecular, "s7_open", 1, [](const Pixel& p) { return p.open; });
+    add(8, kColor, "s8_open", 1, [](const Pixel& p) { return p.open; });
     for (int c = 0; c < f_.channels; ++c) {
       const auto i = static_cast<std::size_t>(c);
       add_word(c, "s8_word", [i](const Pixel& p) { return p.word[i]; });
@@ -220,7 +234,7 @@ class SignalTable {
     constexpr int kMostBankBits = 11;
     const int bank_bits = std::min(f_.rom_address_bits, kMostBankBits);
     const int banks = f_.rom_addresses() >> bank_bits;
-    const std::string scope = "specular.rom.plain";
+    const std::string scope = kSpecular + ".rom.plain";
     for (int bank = 0; bank < banks; ++bank) {
       const auto place = [=](const Pixel& p) {
         return static_cast<std::size_t>(bank << bank_bits | (p.address & ((1 << bank_bits) - 1)));
@@ -235,7 +249,7 @@ class SignalTable {
     }
   }
   void add_octave_tables() {
-    const std::string scope = "specular.rom.octave";
+    const std::string scope = kSpecular + ".rom.octave";
     int place_bits = 0;
     while (1 << place_bits < f_.rom_bases()) ++place_bits;
     const auto base = [](const Pixel& p) { return p.places.base; };
@@ -252,7 +266,8 @@ class SignalTable {
   template <typename Value>
   void add_word(int channel, const std::string& name, Value value) {
     const int bits = f_.rom_data_bits;
-    DatapathSignal& word = add(8, fmt::format("channel[{}]", channel), name, bits, value);
+    DatapathSignal& word =
+        add(8, fmt::format("{}.channel[{}]", kColor, channel), name, bits, value);
     in_units(word, "LSB", bits - kOutputBits, false);
     word.packed = name + "s";
     word.rtl_lsb = channel * bits;
@@ -260,7 +275,7 @@ class SignalTable {
 
   // The blocks of a channel from the comparison to the sum.
   void add_light(int channel) {
-    const std::string scope = fmt::format("channel[{}].summation", channel);
+    const std::string scope = fmt::format("{}.channel[{}].summation", kColor, channel);
     const auto c = static_cast<std::size_t>(channel);
     const int width = f_.diffuse_width(), low = low_bits(width);
     add(4, scope, "s4_level_complement", width - 1, [c, width](const Pixel& p) {
@@ -303,15 +318,16 @@ class SignalTable {
   }
 
   void add_cueing() {
-    add(1, "", "s1_first_pass", 1, [](const Pixel& p) { return p.first_pass; });
-    add_flag(2, kSumStage, "cueing", "first_pass", [](const Pixel& p) { return p.first_pass; });
+    add_span_flag("first_pass", [](const Pixel& p) { return p.first_pass; });
+    const std::string cueing = kColor + ".cueing";
+    add_flag(4, kSumStage, cueing, "first_pass", [](const Pixel& p) { return p.first_pass; });
     for (int stage = kSeriesStage + 1; stage <= kSumStage; ++stage) {
-      add(stage, "cueing", at(stage, "factor"), kCueFactorBits + 1, [](const Pixel& p) {
+      add(stage, cueing, at(stage, "factor"), kCueFactorBits + 1, [](const Pixel& p) {
         return p.cue_factor;
       }).fraction_bits = kCueFactorBits;
     }
     for (int channel = 0; channel < f_.channels; ++channel) {
-      const std::string scope = fmt::format("cueing.channel[{}].multiplier", channel);
+      const std::string scope = fmt::format("{}.channel[{}].multiplier", cueing, channel);
       const auto c = static_cast<std::size_t>(channel);
       const int own_stage = kSumStage + 1;
       in_units(add(own_stage, scope, at(own_stage, "own"), kGuardBits + kOutputBits + 2,
@@ -331,7 +347,21 @@ class SignalTable {
     }
   }
 
+  // What a span keeps for all its pixels, until color_pipeline has it.
+  template <typename Value>
+  void add_span_flag(const char* name, Value value) {
+    if (serial_) {
+      add(kWholeStage, "", at(kWholeStage, name), 1, value);
+    } else {
+      add(1, "", at(1, name), 1, value);
+      add_flag(2, 3, "", name, value);
+    }
+  }
+
+  inline static const std::string kColor = "color", kSpecular = "color.specular";
+
   const DatapathConfiguration& f_;
+  bool serial_;
   int stages_;
   std::vector<DatapathSignal> signals_;
 };

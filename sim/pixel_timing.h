@@ -1,9 +1,10 @@
 // Time of each pixel between the entrance of pixel_datapath and the framebuffer, in closed form.
 //
 // A pixel enters in cycle `in`, leaves the datapath in `out`, and is read by the framebuffer in
-// `read`. It may enter from cycle `asked`, and occupies the framebuffer for `cost` cycles. The
-// datapath has a queue of `slots` pixels, the framebuffer one of `depth` pixels:
-//   next(j) = max(asked, in(j−1) + 1)
+// `read`. It may enter from cycle `asked`, `interval` cycles after the one before, and occupies the
+// framebuffer for `cost` cycles. The datapath has a queue of `slots` pixels, the framebuffer one of
+// `depth` pixels:
+//   next(j) = max(asked, in(j−1) + interval)
 //   in(j)   = next(j) if that is in(j−1) + 1 and not before out(j − slots − 1) + 2,
 //             else max(next(j), out(j − slots) + 2)
 //   out(j)  = max(in(j) + latency, out(j−1) + 1, read(j − depth) + 1)
@@ -13,18 +14,19 @@
 #pragma once
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
-#include "model/fixed/constants.h"
+#include "model/fixed/datapath_configuration.h"
 #include "sim/timestamped_fifo.h"
 
 namespace phongpipe {
 
 class PixelTiming {
  public:
-  PixelTiming(int latency, int depth)
-      : latency_(latency),
+  PixelTiming(const DatapathConfiguration& datapath, int depth)
+      : in_(-datapath.interval_cycles()),
+        interval_(datapath.interval_cycles()),
+        latency_(datapath.latency_cycles()),
         out_(static_cast<std::size_t>(kPixelQueueSlots) + 1, -kSlotFree),
         read_(static_cast<std::size_t>(depth), -1) {}
 
@@ -42,9 +44,9 @@ class PixelTiming {
     Cycle* const reads = read_.data();
     Cycle* const out = out_.data();
     const std::size_t depth = read_.size(), held = out_.size();
-    const Cycle latency = latency_;
+    const Cycle latency = latency_, interval = interval_;
     for (std::size_t i = 0; i < count; ++i) {
-      const Cycle next = std::max(asked, in + 1);
+      const Cycle next = std::max(asked, in + interval);
       const std::size_t after = out_slot + 1 == held ? 0 : out_slot + 1;
       const bool follows = next == in + 1 && out[out_slot] + kSlotFree <= next;
       in = follows ? next : std::max(next, out[after] + kSlotFree);
@@ -93,16 +95,18 @@ class PixelTiming {
   }
   // next(), if unhindered() and if each pixel occupies the framebuffer for 1 cycle.
   Cycle next_unhindered(Cycle asked, std::size_t count, Cycle* cycles) {
-    const Cycle first = std::max(asked, in_ + 1);
-    std::iota(cycles, cycles + count, first + latency_);
-    in_ = first + static_cast<Cycle>(count) - 1;
+    const Cycle first = std::max(asked, in_ + interval_);
+    for (std::size_t i = 0; i < count; ++i) {
+      cycles[i] = first + latency_ + static_cast<Cycle>(i) * interval_;
+    }
+    in_ = first + (static_cast<Cycle>(count) - 1) * interval_;
     last_out_ = in_ + latency_;
     free_from_ = last_out_ + 2;
     return first;
   }
 
-  Cycle in_ = -1, last_out_ = -1, free_from_ = 0;
-  Cycle latency_;
+  Cycle in_, last_out_ = -1, free_from_ = 0;
+  Cycle interval_, latency_;
   std::vector<Cycle> out_;    // of the last slots + 1 pixels
   std::size_t out_slot_ = 0;  // of the earliest of these
   std::vector<Cycle> read_;

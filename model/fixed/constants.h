@@ -35,6 +35,17 @@ constexpr int kPixelQueueBits = 5;
 constexpr int kPixelQueueSlots = 1 << kPixelQueueBits;
 static_assert(kPixelQueueSlots > kDatapathLatency + kDepthCueLatency + 1);
 
+// The serial datapath reads and adds this many bits of a series a clock; a series has so many such
+// digits, at least.
+constexpr int kDigitBits = 8;
+constexpr int kLeastDigits = 3;
+// A pixel of it has whole series as many clocks after its last digit as one of the pipelined
+// datapath after its entrance, less this.
+constexpr int kSerialStages = 3;
+// Bits of the numbers of a series and of a digit in it.
+constexpr int kSeriesBits = 3;
+constexpr int kDigitPlaceBits = 3;
+
 // A sum of a series is made in two clocks: its low bits, then its upper kHighBits with their carry.
 // Counted from above, so that a series in a wider register is split at the same place.
 constexpr int kHighBits = 13;
@@ -49,6 +60,10 @@ constexpr int kCueIntegerBits = 11;
 constexpr int kCueFraction = 20;
 constexpr int kCueFactorBits = 10;
 constexpr int kCueWidth = 1 + kCueIntegerBits + kCueFraction;
+
+// What enables the specular term. `off`: always enabled, as in the paper. `diffuse`: the sign of
+// the diffuse series. `series`: a separate series of N·L, for a diffuse colour of 0.
+enum class GateSource { off, diffuse, series };
 
 // Bits of a diffuse (or gate) register: sign, guard, output LSBs, fraction.
 constexpr int diffuse_width(int fraction_bits) {

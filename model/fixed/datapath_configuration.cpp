@@ -10,6 +10,9 @@ const Settings<FixedPointFormats>& FixedPointFormats::settings() {
   using F = FixedPointFormats;
   // Fractions end where the registers of the plain layout have kWidestSeries bits.
   static const Settings<F> all = {
+      choice_setting("datapath", "kind", &F::kind, {"pipelined", "serial"},
+                     "a pixel a clock; or a digit of 8 bits of one series a clock, in half the "
+                     "LUTs"),
       choice_setting("datapath", "channels", &F::channel_choice, {"auto", "1", "3"},
                      "grey or colour; auto: one channel where all of the scene is grey"),
       number_setting("datapath", "diffuse_fraction_bits", &F::diffuse_fraction_bits, "bits", 4, 30,
@@ -65,6 +68,13 @@ const Settings<SetupPolicy>& SetupPolicy::settings() {
   return all;
 }
 
+int DatapathConfiguration::serial_digits() const {
+  int widest = diffuse_width();
+  if (specular) widest = std::max(widest, specular_width());
+  if (depth_cue) widest = std::max(widest, kCueWidth);
+  return std::max(kLeastDigits, (widest + kDigitBits - 1) / kDigitBits);
+}
+
 void DatapathConfiguration::check() const {
   check_settings<FixedPointFormats>(settings(), *this);
   if (specular_width() > kWidestSeries) {
@@ -100,6 +110,10 @@ void FrameConfiguration::check() const {
   }
 }
 
+std::string_view rtl_module(const DatapathConfiguration& datapath) {
+  return datapath.kind == DatapathKind::serial ? "pixel_datapath_serial" : "pixel_datapath";
+}
+
 RtlParameters rtl_parameters(const DatapathConfiguration& datapath) {
   RtlParameters parameters = {{"CHANNELS", datapath.channels},
                               {"DIFFUSE", datapath.diffuse},
@@ -126,7 +140,10 @@ std::string parameters_text(const RtlParameters& parameters) {
 }
 
 std::string rtl_parameters_text(const DatapathConfiguration& datapath) {
-  return parameters_text(rtl_parameters(datapath));
+  const std::string parameters = parameters_text(rtl_parameters(datapath));
+  return datapath.kind == DatapathKind::pipelined
+             ? parameters
+             : std::string(rtl_module(datapath)) + "-" + parameters;
 }
 
 }  // namespace phongpipe

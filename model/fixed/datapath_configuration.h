@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -37,15 +38,16 @@ constexpr int least_specular_guard_bits(RomLayout layout) {
   return layout == RomLayout::plain ? kGuardBits : kSpecularGuardStep;
 }
 
-// What enables the specular term. `off`: always enabled, as in the paper. `diffuse`: the sign of
-// the diffuse series. `series`: a separate series of N·L, for a diffuse colour of 0.
-enum class GateSource { off, diffuse, series };
+// `pipelined`: a pixel a clock. `serial`: a digit of one series a clock, in few LUTs.
+enum class DatapathKind { pipelined, serial };
+constexpr std::array kDatapathKinds = {DatapathKind::pipelined, DatapathKind::serial};
 
 // `automatic`: one channel if all colours of the scene are grey, else three.
 enum class ChannelChoice { automatic, one, three };
 
 // The user's settings of the datapath and the framebuffer.
 struct FixedPointFormats {
+  DatapathKind kind = DatapathKind::pipelined;
   ChannelChoice channel_choice = ChannelChoice::automatic;
   int diffuse_fraction_bits = 16;   // below one output LSB
   int specular_fraction_bits = 12;  // below one ROM address
@@ -124,9 +126,22 @@ struct DatapathConfiguration : FixedPointFormats, EffectBlocks {
     return 3 * ((diffuse ? channels : 0) + (has_gate_series() ? 1 : 0)) * diffuse_width() +
            (specular ? 3 * specular_width() : 0) + (depth_cue ? 2 * kCueWidth : 0);
   }
-  // Clocks from the acceptance of a span to its first pixel at the output, and the number of pixels
-  // that the datapath holds.
-  int latency_cycles() const { return kDatapathLatency + (depth_cue ? kDepthCueLatency : 0); }
+  // Clocks from a pixel that enters to the next one.
+  int interval_cycles() const {
+    return kind == DatapathKind::serial ? serial_series() * serial_digits() : 1;
+  }
+  // Series whose digits the serial datapath reads: a diffuse one of each channel in any case, for
+  // the level is read with it.
+  int serial_series() const {
+    return channels + (specular ? 1 : 0) + (has_gate_series() ? 1 : 0) + (depth_cue ? 1 : 0);
+  }
+  // Digits of each of them, of the widest register.
+  int serial_digits() const;
+  // Clocks from the acceptance of a span to its first pixel at the output.
+  int latency_cycles() const {
+    return kDatapathLatency + (depth_cue ? kDepthCueLatency : 0) +
+           (kind == DatapathKind::serial ? interval_cycles() - kSerialStages : 0);
+  }
 
   // Throws InputError naming key, value and legal range.
   void check() const;
@@ -163,12 +178,14 @@ inline double least_certified_error_lsb(const DatapathConfiguration& datapath) {
   return 0.5 + std::ldexp(0.5, -datapath.diffuse_fraction_bits) + kExactPathNoise;
 }
 
+// The RTL module of a configuration.
+std::string_view rtl_module(const DatapathConfiguration& datapath);
 // Parameters of a module by name.
 using RtlParameters = std::vector<std::pair<std::string_view, int>>;
-// Those of pixel_datapath.sv.
+// Those of rtl_module(datapath).
 RtlParameters rtl_parameters(const DatapathConfiguration& datapath);
-// "CHANNELS=1-DIFFUSE=1-…": names the RTL of a configuration in file names, messages, libraries and
-// technology cards.
+// "CHANNELS=1-DIFFUSE=1-…", after the name of the module if it is not pixel_datapath: names the RTL
+// of a configuration in file names, messages, libraries and technology cards.
 std::string parameters_text(const RtlParameters& parameters);
 std::string rtl_parameters_text(const DatapathConfiguration& datapath);
 

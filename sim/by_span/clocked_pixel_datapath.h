@@ -20,7 +20,7 @@ class ClockedPixelDatapath : public sc_core::sc_module {
         spans_(spans),
         framebuffer_(framebuffer),
         driver_(context.frame, datapath),
-        timing_(context.frame.configuration.latency_cycles(), context.configuration.pixel_fifo) {
+        timing_(context.frame.configuration, context.configuration.pixel_fifo) {
     SC_THREAD(run);
   }
   SC_HAS_PROCESS(ClockedPixelDatapath);

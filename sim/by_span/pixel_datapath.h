@@ -18,7 +18,7 @@ class PixelDatapath : public sc_core::sc_module {
         framebuffer_(framebuffer),
         blocks_(context.frame.configuration),
         values_(context.frame.configuration, best_evaluation(), context.frame.cue_color),
-        timing_(context.frame.configuration.latency_cycles(), context.configuration.pixel_fifo) {
+        timing_(context.frame.configuration, context.configuration.pixel_fifo) {
     SC_THREAD(run);
   }
   SC_HAS_PROCESS(PixelDatapath);

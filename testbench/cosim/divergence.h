@@ -29,7 +29,7 @@ struct Divergence {
 
 // A register or an output that differs.
 struct SignalDivergence {
-  std::string block;   // "pixel_datapath.specular.rom"
+  std::string block;   // "pixel_datapath.color.specular.rom"
   std::string signal;  // "address", or "table_words[7]"
   int width = 1;       // bits
   std::int64_t cycle = 0;

@@ -29,6 +29,10 @@ int main() {
   define("DEPTH_CUE_LATENCY", kDepthCueLatency);
   define("PIXEL_QUEUE_BITS", kPixelQueueBits);
   define("HIGH_BITS", kHighBits);
+  define("DIGIT_BITS", kDigitBits);
+  define("LEAST_DIGITS", kLeastDigits);
+  define("SERIES_BITS", kSeriesBits);
+  define("DIGIT_PLACE_BITS", kDigitPlaceBits);
   // Where a parameter is out of range, elaboration stops in every tool at a module that does not
   // exist and whose name says which parameter it is.
   std::string checks;

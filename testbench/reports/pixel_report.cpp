@@ -261,7 +261,7 @@ class TextReport {
     }
     line("output",
          fmt::format("{} LSB; saturated: {}", list(values.output), list(values.saturated)));
-    plain("    registers of the first stage at the span's start");
+    plain("    registers that take the span's start");
     registers(span.start);
     plain("    registers of all stages, each while it holds the pixel");
     registers(span.registers);

@@ -44,7 +44,7 @@ struct RtlPixel {
 
 // A signal inside the RTL, or a register array, for as long as the instance lives.
 struct RtlSignal {
-  const char* scope;  // "pixel_datapath.specular.rom"
+  const char* scope;  // "pixel_datapath.color.specular.rom"
   const char* name;
   void* data;           // of its first element; little-endian, bits above `width` are 0
   std::uint32_t width;  // bits of an element

@@ -27,7 +27,7 @@ RtlSpan to_rtl(const Span& span, const RtlAlignment& alignment) {
   }
   rtl.specular = to_rtl(span.specular, alignment.specular);
   rtl.gate = to_rtl(span.gate, alignment.diffuse);
-  rtl.cue = to_rtl(span.cue, 0);
+  rtl.cue = {span.cue.v, span.cue.d1, 0};
   rtl.first_pass = span.first_pass;
   rtl.step_diffuse = span.step_diffuse;
   rtl.step_specular = span.step_specular;

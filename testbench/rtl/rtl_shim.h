@@ -11,12 +11,15 @@
 #include <cstring>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "model/fixed/constants.h"
 
 namespace {
 
+using phongpipe::GateSource;
 using phongpipe::kCueWidth;
+using phongpipe::kDigitBits;
 using phongpipe::kOutputBits;
 
 // The low `width` bits of each value side by side, the first in the low bits, into a port of
@@ -44,6 +47,12 @@ void pack(Port& port, const Value* values, int count, int width) {
     }
   }
 }
+
+// Whether a Verilated module reads the words of a span digit by digit, as pixel_datapath_serial.
+template <typename Top, typename = void>
+constexpr bool kReadsDigits = false;
+template <typename Top>
+constexpr bool kReadsDigits<Top, std::void_t<decltype(std::declval<Top&>().span_digit)>> = true;
 
 // `Top`: the Verilated module. `Parameters`: a struct with its parameters as constants of the same
 // names.
@@ -79,6 +88,7 @@ class Rtl {
     pack(top_.cue_color, ports.cue_color, kChannels, kOutputBits);
     top_.span_valid = ports.span != nullptr;
     if (ports.span != presented_) present(ports.span);
+    if constexpr (kReadsDigits<Top>) answer_digit();
     top_.clk = 0;
     top_.eval();
     ports.span_ready = top_.span_ready;
@@ -89,6 +99,11 @@ class Rtl {
       ports.pixel_color = top_.pixel_color;
     }
     if (top_.span_ready) presented_ = nullptr;  // the next span may stand at the same address
+    if constexpr (kReadsDigits<Top>) {
+      if (top_.span_ready && ports.span != nullptr) taken_ = *ports.span;
+      series_ = top_.span_series;
+      digit_ = top_.span_digit;
+    }
     if (ports.before_edge != nullptr) ports.before_edge(ports.user);
     edge();
   }
@@ -101,13 +116,15 @@ class Rtl {
     RtlPorts ports = {};
     ports.pixel_ready = 1;
     for (int c = 0; c < kChannels; ++c) ports.cue_color[c] = cue_color[c];
-    std::uint64_t clocks = 0;
+    std::uint64_t clocks = 0, idle = 0;
     // A datapath that loses pixels must not keep us forever.
-    for (const std::uint64_t limit = 2 * left + count + 64; left > 0 && clocks < limit; ++clocks) {
+    for (constexpr std::uint64_t kPatience = 1000; left > 0 && idle < kPatience; ++clocks) {
       ports.span = spans != end ? spans : nullptr;
       clock(ports);
       if (ports.span != nullptr && ports.span_ready) ++spans;
+      ++idle;
       if (ports.pixel_valid) {
+        idle = 0;
         *pixels++ = {ports.pixel_x, ports.pixel_y, ports.pixel_color};
         --left;
       }
@@ -120,7 +137,10 @@ class Rtl {
     for (const auto& [full_name, scope] : *context_.scopeNameMap()) {
       const char* const below_top = std::strstr(full_name, "pixel_datapath");
       if (below_top == nullptr || scope->varsp() == nullptr) continue;
-      const std::string name = with_brackets(below_top);
+      // The top module's name is left out, for it tells the kind of the datapath.
+      const char* const inside = std::strchr(below_top, '.');
+      const std::string name =
+          with_brackets(std::string("pixel_datapath") + (inside != nullptr ? inside : ""));
       for (const auto& [variable_name, variable] : *scope->varsp()) {
         if (variable.isParam()) continue;
         RtlSignal signal = {};
@@ -164,6 +184,10 @@ class Rtl {
     top_.span_step_diffuse = span->step_diffuse;
     top_.span_step_specular = span->step_specular;
     top_.span_highlight = span->highlight;
+    if constexpr (!kReadsDigits<Top>) present_words(span);
+  }
+
+  void present_words(const RtlSpan* span) {
     std::int64_t v[3], d1[3], d2[3];
     for (int c = 0; c < kChannels; ++c) {
       v[c] = span->diffuse[c].v;
@@ -184,9 +208,32 @@ class Rtl {
     pack(top_.span_cue_d1, &span->cue.d1, 1, kCueWidth);
   }
 
+  // The digits that the module asked for in the clock before.
+  void answer_digit() {
+    const RtlSeries* series[6] = {};
+    int count = 0;
+    if (Parameters::SPECULAR) series[count++] = &taken_.specular;
+    if (Parameters::SPECULAR && Parameters::GATE == static_cast<int>(GateSource::series))
+      series[count++] = &taken_.gate;
+    if (Parameters::DEPTH_CUE) series[count++] = &taken_.cue;
+    const int first_diffuse = count;
+    for (int c = 0; c < kChannels; ++c) series[count++] = &taken_.diffuse[c];
+    if (series_ >= count) return;
+    const auto digit = [this](std::int64_t word) {
+      return static_cast<CData>(word >> (digit_ * kDigitBits) & ((1 << kDigitBits) - 1));
+    };
+    top_.span_v = digit(series[series_]->v);
+    top_.span_d1 = digit(series[series_]->d1);
+    top_.span_d2 = digit(series[series_]->d2);
+    if (series_ >= first_diffuse) top_.span_level = digit(taken_.level[series_ - first_diffuse]);
+  }
+
   VerilatedContext context_;
   Top top_;
   const RtlSpan* presented_ = nullptr;
+  // Of a module that reads digits: the span that was taken last, and the place it asked for.
+  RtlSpan taken_ = {};
+  int series_ = 0, digit_ = 0;
 };
 
 template <typename Top, typename Parameters>

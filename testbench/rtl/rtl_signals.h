@@ -15,7 +15,7 @@ namespace phongpipe {
 // A signal, or some of its bits. Valid as long as its RtlDatapath.
 class RtlSignalView {
  public:
-  std::string scope;  // "pixel_datapath.specular.rom"
+  std::string scope;  // "pixel_datapath.color.specular.rom"
   std::string name;
   int width = 1;     // bits of an element
   int elements = 1;  // more than 1: an array

@@ -6,6 +6,7 @@ namespace phongpipe {
 
 DatapathConfiguration superset_of(const DatapathConfiguration& configuration) {
   DatapathConfiguration wide = configuration;
+  if (configuration.kind == DatapathKind::serial) return wide;
   for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
     if (setting.rtl_parameter.empty()) continue;
     // Words of the table end at the output's LSB from above and cannot be shifted; in the octave

@@ -16,7 +16,9 @@ struct RtlAlignment {
   int address = 0;   // of the table
 };
 
-// The same blocks and words of the table, with the widest series and the largest table.
+// The same blocks and words of the table, with the widest series and the largest table. A serial
+// datapath is its own superset, for it takes a clock more for each digit that its registers are
+// wider.
 DatapathConfiguration superset_of(const DatapathConfiguration& configuration);
 
 // Of `configuration` in the RTL of superset_of(configuration).

@@ -144,6 +144,9 @@ class FstWriter : public WaveWriter {
 // end.
 constexpr char kVariable = 'v', kChange = 'c', kEnd = 'e';
 
+// What a child sends that a damaged file has led astray.
+struct DamagedMessage : std::exception {};
+
 template <typename Number>
 void append_number(std::string& bytes, Number number) {
   const char* const at = reinterpret_cast<const char*>(&number);
@@ -152,7 +155,7 @@ void append_number(std::string& bytes, Number number) {
 template <typename Number>
 Number take_number(std::string_view& bytes) {
   Number number{};
-  if (bytes.size() < sizeof number) throw std::runtime_error("a message that was cut");
+  if (bytes.size() < sizeof number) throw DamagedMessage();
   std::memcpy(&number, bytes.data(), sizeof number);
   bytes.remove_prefix(sizeof number);
   return number;
@@ -163,7 +166,7 @@ void append_text(std::string& bytes, std::string_view text) {
 }
 std::string take_text(std::string_view& bytes) {
   const auto size = take_number<std::uint64_t>(bytes);
-  if (size > bytes.size()) throw std::runtime_error("a message that was cut");
+  if (size > bytes.size()) throw DamagedMessage();
   std::string text(bytes.substr(0, size));
   bytes.remove_prefix(size);
   return text;
@@ -295,12 +298,16 @@ bool read_fst(const fs::path& file, WaveReader& reader, const WaveReader::Declar
       const auto ps = take_number<std::uint64_t>(message);
       const auto index = take_number<std::uint64_t>(message);
       const std::string value = take_text(message);
-      if (index >= reader.variables.size()) throw std::runtime_error("an unknown variable");
+      if (index >= reader.variables.size()) throw DamagedMessage();
       visit(ps, index, value);
     }
   };
-  while (!child.ended()) {
-    for (const std::string& message : child.receive()) take(message);
+  try {
+    while (!child.ended()) {
+      for (const std::string& message : child.receive()) take(message);
+    }
+  } catch (const DamagedMessage&) {
+    return false;
   }
   return complete && child.failure().empty();
 }

@@ -20,7 +20,7 @@
 namespace phongpipe {
 namespace {
 
-// Runs a span alone and without stalls: a pixel is one clock in each stage.
+// Runs a span alone and without stalls.
 SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
   const DatapathConfiguration& configuration = frame.configuration;
   SpanStory story;
@@ -39,15 +39,20 @@ SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
   const std::vector<DatapathSignal> signals = datapath_signals(configuration);
   inputs.pixel_ready = true;
   inputs.span = &span;
-  for (int clock = 0; clock < story.step + datapath_stages(configuration); ++clock) {
+  const int entrance = story.step * configuration.interval_cycles();
+  const auto has_start = [&](int stage) {
+    return configuration.kind == DatapathKind::serial ? stage <= kWholeStage : stage == 1;
+  };
+  for (int clock = 0; clock < entrance + configuration.latency_cycles(); ++clock) {
     registers.clock(inputs);
     inputs.span = nullptr;
-    if (clock == story.step) story.pixel = registers.in_stage(0);
+    if (clock == entrance) story.pixel = registers.in_stage(0);
     for (const DatapathSignal& signal : signals) {
-      const int pixel = clock - signal.stage;
-      if (signal.always || (signal.only_first && pixel != 0)) continue;
-      if (clock == 1 && pixel == 0) story.start.push_back({signal, signal.value(registers)});
-      if (pixel == story.step) story.registers.push_back({signal, signal.value(registers)});
+      const int entered = clock - static_cast<int>(registers.clocks_to(signal.stage));
+      if (signal.always || (signal.only_first && entered != 0)) continue;
+      if (entered == 0 && has_start(signal.stage))
+        story.start.push_back({signal, signal.value(registers)});
+      if (entered == entrance) story.registers.push_back({signal, signal.value(registers)});
     }
   }
   for (std::size_t c = 0; c < static_cast<std::size_t>(configuration.channels); ++c) {

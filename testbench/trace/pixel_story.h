@@ -56,7 +56,8 @@ struct SpanStory {
   RowSpan row;
   int step = 0;  // of the pixel, from 0
   std::array<std::int64_t, 3> level = {};
-  std::vector<RegisterValue> start;      // stage 1 at the first pixel of the span
+  // The first pixel of the span in the stages that take the start values.
+  std::vector<RegisterValue> start;
   std::vector<RegisterValue> registers;  // all stages, each while it holds the pixel
   DatapathPixel pixel;                   // the same, by name
   std::array<bool, 3> saturated = {};    // whether more than the output's range was left

@@ -29,20 +29,26 @@ const std::map<std::string, int>& stages_of_signals() {
     constexpr std::pair<RomLayout, int> kTables[] = {{RomLayout::plain, 11},  // a bank
                                                      {RomLayout::plain, kMostAddressBits},
                                                      {RomLayout::bipartite, kMostAddressBits}};
-    for (const int channels : {1, 3}) {
-      for (const auto& [layout, address_bits] : kTables) {
-        everything.channels = channels;
-        everything.rom_layout = layout;
-        everything.rom_address_bits = address_bits;
-        for (const DatapathSignal& signal : datapath_signals(everything)) {
-          if (signal.only_first) continue;
-          stages.emplace(signal.full_name(), signal.stage);
-          // Words that are packed with those of other stages are no signals of a pixel.
-          const bool of_one_stage =
-              signal.packed == signal.name || signal.packed == signal.name + "s";
-          if (of_one_stage) {
-            stages.emplace(fmt::format("{}.{}", kDatapath, signal.packed), signal.stage);
-          }
+    const auto add_signals = [&] {
+      for (const DatapathSignal& signal : datapath_signals(everything)) {
+        if (signal.only_first) continue;
+        stages.emplace(signal.full_name(), signal.stage);
+        // Words that are packed with those of other stages are no signals of a pixel.
+        const bool of_one_stage =
+            signal.packed == signal.name || signal.packed == signal.name + "s";
+        if (of_one_stage) {
+          stages.emplace(fmt::format("{}.{}", kDatapath, signal.packed), signal.stage);
+        }
+      }
+    };
+    for (const DatapathKind kind : kDatapathKinds) {
+      for (const int channels : {1, 3}) {
+        for (const auto& [layout, address_bits] : kTables) {
+          everything.kind = kind;
+          everything.channels = channels;
+          everything.rom_layout = layout;
+          everything.rom_address_bits = address_bits;
+          add_signals();
         }
       }
     }
@@ -76,6 +82,7 @@ class Follower {
       if (name == fmt::format("{}.s{}_valid", kDatapath, stage)) valid_[index(stage)] = variable;
     }
     if (name == fmt::format("{}.valid", kDatapath)) valid_width_ = width;
+    if (name == fmt::format("{}.s0_x", kDatapath)) serial_ = true;
     for (const std::string_view output : kOutputs) {
       if (name == fmt::format("{}.{}", kDatapath, output)) {
         registers_[kOutputStage].push_back({name, variable, width});
@@ -110,6 +117,14 @@ class Follower {
       pixels_.emplace_back();
       pixels_.back().entered = clock_;
     }
+    if (serial_ && valid[kWholeStage]) {
+      if (entered_.empty()) {
+        ++unknown_;
+      } else {
+        held_[kWholeStage] = entered_.front();
+        entered_.pop_front();
+      }
+    }
     for (int stage = 0; stage < kMostStages; ++stage) {
       if (!valid[index(stage)]) held_[index(stage)].reset();
       if (held_[index(stage)]) look(stage, pixels_[*held_[index(stage)]], values);
@@ -125,7 +140,9 @@ class Follower {
       std::optional<std::size_t>& held = held_[index(stage)];
       if (!held) continue;
       const bool last = stage + 1 == kMostStages || !has_stage(stage + 1);
-      if (last) {
+      if (serial_ && stage == 0) {
+        entered_.push_back(*held);
+      } else if (last) {
         queue_.push_back(*held);
       } else {
         held_[index(stage + 1)] = held;
@@ -137,24 +154,28 @@ class Follower {
   }
   // What was recorded ends here for a while.
   void gap() {
-    // A pixel is placed in stage 1.
-    if (!pixels_.empty() && pixels_.back().ps[1] == 0) pixels_.pop_back();
+    if (!pixels_.empty() && pixels_.back().ps[index(place_stage())] == 0) pixels_.pop_back();
     held_ = {};
+    entered_.clear();
     queue_.clear();
     began_ = true;
   }
 
  private:
   static std::size_t index(int stage) { return static_cast<std::size_t>(stage); }
+  // Where a pixel gets its place.
+  int place_stage() const { return serial_ ? 0 : 1; }
   // Our own traces have a bit for each stage, those of other tools RTL's word.
+  int bit_of_word(int stage) const { return serial_ ? stage - kWholeStage : stage; }
   bool has_stage(int stage) const {
-    return valid_[index(stage)].has_value() || stage < valid_width_;
+    return valid_[index(stage)].has_value() || bit_of_word(stage) < valid_width_;
   }
   bool is_valid(const std::vector<std::string>& values, int stage) const {
     if (const auto& own = valid_[index(stage)]) return values[*own] == "1";
-    if (stage >= valid_width_) return false;
+    const int of_word = bit_of_word(stage);
+    if (of_word < 0 || of_word >= valid_width_) return false;
     const int all = number(values, fmt::format("{}.valid", kDatapath), valid_width_);
-    return (all >> stage & 1) != 0;
+    return (all >> of_word & 1) != 0;
   }
   bool bit(const std::vector<std::string>& values, const std::string& name) const {
     const auto found = variables_.find(name);
@@ -181,9 +202,9 @@ class Follower {
   }
   // Takes the signals that a stage has of the pixel.
   void look(int stage, TracedPixel& pixel, const std::vector<std::string>& values) {
-    if (stage == 1) {
-      pixel.x = number(values, fmt::format("{}.s1_x", kDatapath), kCoordinateBits);
-      pixel.y = number(values, fmt::format("{}.s1_y", kDatapath), kCoordinateBits);
+    if (stage == place_stage()) {
+      pixel.x = number(values, fmt::format("{}.s{}_x", kDatapath, stage), kCoordinateBits);
+      pixel.y = number(values, fmt::format("{}.s{}_y", kDatapath, stage), kCoordinateBits);
     }
     pixel.ps[index(stage)] = since_ps_;
     for (const auto& [name, variable, width] : registers_[index(stage)]) {
@@ -207,6 +228,9 @@ class Follower {
   };
   std::array<std::vector<Register>, kMostStages + 1> registers_;  // by the stage they belong to
   std::array<std::optional<std::size_t>, kMostStages> held_{};
+  bool serial_ = false;
+  // Of the serial datapath: pixels whose digits are read.
+  std::deque<std::size_t> entered_;
   std::deque<std::size_t> queue_;
   std::array<std::optional<std::size_t>, kMostStages> valid_{};  // variables of the stages' bits
   int valid_width_ = 0;                                          // of RTL's word

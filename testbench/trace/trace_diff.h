@@ -15,7 +15,7 @@ namespace phongpipe {
 struct TraceDifference {
   std::uint64_t pixel = 0;  // of those that both traces have
   int x = 0, y = 0;
-  std::string signal;                // "pixel_datapath.specular.rom.address"
+  std::string signal;                // "pixel_datapath.color.specular.rom.address"
   std::string a, b;                  // bits
   std::uint64_t a_ps = 0, b_ps = 0;  // when the stage takes the pixel
 };

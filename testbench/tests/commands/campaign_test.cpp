@@ -403,8 +403,8 @@ TEST_F(Campaigns, FailuresOfTheUsersRtlAreOneBucket) {
   const ProcessOutput output = run(regress);
   EXPECT_EQ(output.status, 1) << output.text;
   EXPECT_NE(
-      output.text.find(
-          "2 × RTL: color: pixel_datapath.specular.rom.octave.channel[].s7_word: RTL differs"),
+      output.text.find("2 × RTL: color: "
+                       "pixel_datapath.color.specular.rom.octave.channel[].s7_word: RTL differs"),
       std::string::npos)
       << output.text;
   EXPECT_NE(output.text.find("again  phongpipe verify sphere --rtl " + file("rtl")),

@@ -13,7 +13,7 @@ class TraceProgram : public Program {
  protected:
   // RTL with a fault: of the highlight in one pixel.
   std::string faulty_rtl() {
-    constexpr const char* kCorrect = "highlight[5:2], s1_highlight";
+    constexpr const char* kCorrect = "highlight[2], s1_highlight";
     return faulty_rtl(kCorrect, std::string(kCorrect) + " ^ (s1_x == 100 && s1_y == 120)");
   }
   std::string faulty_rtl(const std::string& correct, const std::string& broken) {

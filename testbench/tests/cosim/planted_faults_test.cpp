@@ -47,8 +47,8 @@ class FaultyRtl : public RtlDatapath {
 class PlantedFaults : public testing::Test {
  protected:
   PlantedFaults(const char* scene, const std::vector<std::string>& settings,
-                const char* preset = "paper-1k")
-      : hardware_(load_hardware(preset, {})),
+                const char* preset = "paper-1k", const std::vector<std::string>& hardware = {})
+      : hardware_(load_hardware(preset, hardware)),
         frame_(load_named_scene(scene, settings), hardware_.formats, hardware_.setup),
         library_(frame_.setup.configuration, build()) {}
 
@@ -192,6 +192,15 @@ class InDefault : public PlantedFaults {
 };
 TEST_F(InDefault, AreNamedWhereTheyWerePlanted) {
   ASSERT_EQ(frame_.setup.configuration.rom_layout, RomLayout::bipartite);
+  plant_everywhere();
+}
+
+class InSerial : public PlantedFaults {
+ protected:
+  InSerial() : PlantedFaults("sphere", kSmall, "default", {"datapath.kind=serial"}) {}
+};
+TEST_F(InSerial, AreNamedWhereTheyWerePlanted) {
+  ASSERT_EQ(frame_.setup.configuration.kind, DatapathKind::serial);
   plant_everywhere();
 }
 

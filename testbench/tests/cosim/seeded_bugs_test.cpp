@@ -64,8 +64,8 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
     if (model.stream[i].color > model.stream[brightest].color) brightest = i;
   }
   const ShadedPixel pixel = model.stream[brightest];
-  seed("pixel_datapath.sv", "highlight[5:2], s1_highlight",
-       fmt::format("highlight[5:2], s1_highlight ^ (s1_x == {} && s1_y == {})", pixel.x, pixel.y));
+  seed("pixel_datapath.sv", "highlight[2], s1_highlight",
+       fmt::format("highlight[2], s1_highlight ^ (s1_x == {} && s1_y == {})", pixel.x, pixel.y));
 
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
@@ -91,7 +91,7 @@ TEST_F(SeededBug, OnePixelsHighlightIsReportedAtThatPixel) {
 }
 
 TEST_F(SeededBug, CountingEndsAfterTheFirstPixels) {
-  seed("pixel_datapath.sv", "highlight[5:2], s1_highlight", "highlight[5:2], !s1_highlight");
+  seed("pixel_datapath.sv", "highlight[2], s1_highlight", "highlight[2], !s1_highlight");
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
   EXPECT_EQ(v.rtl->stream_mismatches, kMismatchesCounted);
@@ -103,7 +103,7 @@ TEST_F(SeededBug, CountingEndsAfterTheFirstPixels) {
 }
 
 TEST_F(SeededBug, LostPixelsDoNotHangTheHarness) {
-  seed("pixel_datapath.sv", "span_length == 2 : remaining == 3;",
+  seed("span_control.sv", "span_length == 2 : remaining == 3;",
        "span_length == 2 : remaining == 3 || remaining == 7;");
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
@@ -113,7 +113,7 @@ TEST_F(SeededBug, LostPixelsDoNotHangTheHarness) {
 }
 
 TEST_F(SeededBug, ADeadDatapathIsReportedWithItsQueues) {
-  seed("pixel_datapath.sv", "assign span_ready = ", "assign span_ready = 1'b0 && ");
+  seed("span_control.sv", "assign span_ready = ", "assign span_ready = 1'b0 && ");
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
   EXPECT_NE(v.rtl->counts.failure.find("span queue 8 of 8"), std::string::npos)
@@ -134,8 +134,10 @@ TEST_F(SeededBug, PixelsForEverEndTheSimulation) {
 }
 
 TEST_F(SeededBug, ABubbleBetweenSpansIsFoundByTheCycles) {
-  seed("pixel_datapath.sv", "assign span_ready = room && open;",
-       "assign span_ready = room && open && !valid[0];");
+  seed("span_control.sv", "logic open, ending;",
+       "logic open, ending, entered;\nalways_ff @(posedge clk) entered <= enter;");
+  seed("span_control.sv", "assign span_ready = room && open;",
+       "assign span_ready = room && open && !entered;");
   const VerificationResult v = run();
   EXPECT_EQ(v.rtl->stream_mismatches, 0U);
   EXPECT_FALSE(v.same_cycles());
@@ -145,7 +147,7 @@ TEST_F(SeededBug, ABubbleBetweenSpansIsFoundByTheCycles) {
 // The hashes of the first simulation differ; the second, which looks for the pixels, finds none.
 TEST_F(SeededBug, AFaultOfOnlyTheFirstSimulationStillFails) {
   const std::string marker = (folder_ / "simulated").string();
-  seed("pixel_datapath.sv", "logic s8_open;",
+  seed("color_pipeline.sv", "logic s8_open;",
        fmt::format("logic s8_open;\n"
                    "bit once;\n"
                    "integer file;\n"
@@ -158,7 +160,7 @@ TEST_F(SeededBug, AFaultOfOnlyTheFirstSimulationStillFails) {
                    "  end\n"
                    "end",
                    marker));
-  seed("pixel_datapath.sv", ".s8_open,", ".s8_open(s8_open ^ once),");
+  seed("color_pipeline.sv", ".s8_open,", ".s8_open(s8_open ^ once),");
   const VerificationResult v = run();
   EXPECT_FALSE(v.passed());
   EXPECT_TRUE(v.systemc.agrees());

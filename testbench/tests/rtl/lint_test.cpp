@@ -26,33 +26,33 @@ std::vector<std::string> modules() {
   return files;
 }
 
-ProcessOutput verilator(const Parameters& parameters) {
-  std::vector<std::string> command = {"verilator",    "--lint-only",    "-Wall",
-                                      "--top-module", "pixel_datapath", "-I" + kFolder};
+ProcessOutput verilator(const std::string& top, const Parameters& parameters) {
+  std::vector<std::string> command = {"verilator",    "--lint-only", "-Wall",
+                                      "--top-module", top,           "-I" + kFolder};
   for (const auto& [name, value] : parameters)
     command.push_back(fmt::format("-G{}={}", name, value));
   for (const std::string& module : modules()) command.push_back(module);
   return run_process(command);
 }
 
-ProcessOutput iverilog(const Parameters& parameters) {
-  std::vector<std::string> command = {"iverilog", "-g2012",         "-Wall", "-I" + kFolder,
-                                      "-s",       "pixel_datapath", "-o",    "/dev/null"};
+ProcessOutput iverilog(const std::string& top, const Parameters& parameters) {
+  std::vector<std::string> command = {"iverilog", "-g2012", "-Wall", "-I" + kFolder,
+                                      "-s",       top,      "-o",    "/dev/null"};
   for (const auto& [name, value] : parameters) {
-    command.push_back(fmt::format("-Ppixel_datapath.{}={}", name, value));
+    command.push_back(fmt::format("-P{}.{}={}", top, name, value));
   }
   for (const std::string& module : modules()) command.push_back(module);
   return run_process(command);
 }
 
-ProcessOutput yosys(const Parameters& parameters) {
+ProcessOutput yosys(const std::string& top, const Parameters& parameters) {
   std::string sets;
   for (const auto& [name, value] : parameters) sets += fmt::format(" -set {} {}", name, value);
   return run_process({"yosys", "-q", "-p",
-                      fmt::format("read_verilog -sv -I{} {}; chparam{} pixel_datapath; "
-                                  "hierarchy -check -top pixel_datapath; proc; check -assert; "
+                      fmt::format("read_verilog -sv -I{0} {1}; chparam{2} {3}; "
+                                  "hierarchy -check -top {3}; proc; check -assert; "
                                   "synth -run coarse; check -assert",
-                                  kFolder, fmt::join(modules(), " "), sets)});
+                                  kFolder, fmt::join(modules(), " "), sets, top)});
 }
 
 void expect_clean(const ProcessOutput& output, const DatapathConfiguration& c) {
@@ -64,39 +64,50 @@ bool is_legal(const DatapathConfiguration& c) {
   return !(c.specular && !c.diffuse && c.gate == GateSource::diffuse);
 }
 
-// visit(configuration) for every legal combination of blocks.
+std::string module_of(const DatapathConfiguration& c) {
+  return std::string(rtl_module(c));
+}
+
+// visit(configuration) for every kind of datapath and every legal combination of blocks.
 template <typename Visit>
 void for_each_block_combination(Visit visit) {
-  for (int blocks = 0; blocks < 8; ++blocks) {
-    for (const int channels : {1, 3}) {
-      for (const GateSource gate : {GateSource::off, GateSource::diffuse, GateSource::series}) {
-        DatapathConfiguration c;
+  DatapathConfiguration c;
+  for (const DatapathKind kind : kDatapathKinds) {
+    c.kind = kind;
+    for (int blocks = 0; blocks < 8; ++blocks) {
+      c.diffuse = (blocks & 1) != 0;
+      c.specular = (blocks & 2) != 0;
+      c.depth_cue = (blocks & 4) != 0;
+      for (const int channels : {1, 3}) {
         c.channels = channels;
-        c.gate = gate;
-        c.diffuse = (blocks & 1) != 0;
-        c.specular = (blocks & 2) != 0;
-        c.depth_cue = (blocks & 4) != 0;
-        if (is_legal(c)) visit(c);
+        for (const GateSource gate : {GateSource::off, GateSource::diffuse, GateSource::series}) {
+          c.gate = gate;
+          if (is_legal(c)) visit(c);
+        }
       }
     }
   }
 }
 
 TEST(Lint, VerilatorTakesEveryCombinationOfBlocks) {
-  for_each_block_combination(
-      [](const DatapathConfiguration& c) { expect_clean(verilator(rtl_parameters(c)), c); });
+  for_each_block_combination([](const DatapathConfiguration& c) {
+    expect_clean(verilator(module_of(c), rtl_parameters(c)), c);
+  });
 }
 
 // Where all formats are at the lowest and at the highest value that the table of settings has.
 TEST(Lint, VerilatorTakesTheEndsOfEveryRange) {
-  for (const bool highest : {false, true}) {
-    for (const int channels : {1, 3}) {
-      DatapathConfiguration c;
-      c.channels = channels;
+  DatapathConfiguration c;
+  for (const DatapathKind kind : kDatapathKinds) {
+    c.kind = kind;
+    for (const bool highest : {false, true}) {
       for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
         if (!setting.rtl_parameter.empty()) setting.put(c, highest ? setting.high : setting.low);
       }
-      expect_clean(verilator(rtl_parameters(c)), c);
+      for (const int channels : {1, 3}) {
+        c.channels = channels;
+        expect_clean(verilator(module_of(c), rtl_parameters(c)), c);
+      }
     }
   }
 }
@@ -105,16 +116,17 @@ TEST(Lint, IcarusAndYosysTakeEveryBlock) {
   for_each_block_combination([](const DatapathConfiguration& c) {
     const GateSource usual = c.specular && !c.diffuse ? GateSource::series : GateSource::diffuse;
     if (c.channels != 3 || c.gate != usual) return;
-    expect_clean(iverilog(rtl_parameters(c)), c);
-    expect_clean(yosys(rtl_parameters(c)), c);
+    expect_clean(iverilog(module_of(c), rtl_parameters(c)), c);
+    expect_clean(yosys(module_of(c), rtl_parameters(c)), c);
   });
 }
 
 // An illegal parameter stops elaboration in every tool, at a name that says which one it is.
 TEST(Lint, AnIllegalParameterNamesItself) {
-  const auto expect_named = [](const Parameters& parameters, const std::string& name) {
+  std::string top = "pixel_datapath";
+  const auto expect_named = [&top](const Parameters& parameters, const std::string& name) {
     for (const ProcessOutput& output :
-         {verilator(parameters), iverilog(parameters), yosys(parameters)}) {
+         {verilator(top, parameters), iverilog(top, parameters), yosys(top, parameters)}) {
       EXPECT_NE(output.status, 0);
       EXPECT_NE(output.text.find(name), std::string::npos) << name << " in\n" << output.text;
     }
@@ -128,6 +140,9 @@ TEST(Lint, AnIllegalParameterNamesItself) {
   }
   expect_named({{"CHANNELS", 2}}, "CHANNELS_must_be_1_or_3");
   expect_named({{"GATE", 3}}, "GATE_must_be_0_to_2");
+  top = "pixel_datapath_serial";
+  expect_named({{"CHANNELS", 2}}, "CHANNELS_must_be_1_or_3");
+  expect_named({{"ROM_DATA_BITS", 13}}, "ROM_DATA_BITS_must_be_4_to_12");
   expect_named({{"DIFFUSE", 0}, {"SPECULAR", 1}, {"GATE", 1}}, "GATE_diffuse_needs_DIFFUSE");
 }
 

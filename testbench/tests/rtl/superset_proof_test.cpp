@@ -33,28 +33,29 @@ std::vector<std::pair<std::string, std::string>> correspondence(const Widths& wi
                            "first",
                            "restart",
                            "after_first",
-                           "open",
-                           "ending",
-                           "remaining",
+                           "control.open",
+                           "control.ending",
+                           "control.remaining",
                            "s0_x_term",
                            "s1_x",
                            "s1_y",
                            "s1_highlight",
                            "highlight",
-                           "specular.s7_open",
-                           "s8_open",
-                           "specular.rom.new_word",
-                           "specular.rom.plain.bank[0].s6_word",
-                           "specular.rom.plain.s7_words",
-                           "s8_words",
-                           "s6_lit",
-                           "s10_sum"}) {
+                           "color.highlight",
+                           "color.specular.s7_open",
+                           "color.s8_open",
+                           "color.specular.rom.new_word",
+                           "color.specular.rom.plain.bank[0].s6_word",
+                           "color.specular.rom.plain.s7_words",
+                           "color.s8_words",
+                           "color.s6_lit",
+                           "color.s10_sum"}) {
     equal(name);
   }
   for (const char* name :
        {"s5_low_above", "s5_diffuse", "s5_level_complement", "s5_diffuse_cut", "s5_level_cut",
         "s6_diffuse_cut", "s6_level_cut", "s7_clamped", "s8_clamped", "s9_clamped", "s9_addend"}) {
-    equal(fmt::format("channel[0].summation.{}", name));
+    equal(fmt::format("color.channel[0].summation.{}", name));
   }
   const auto shifted = [&](const std::string& name, int width, int low) {
     pairs.emplace_back(
@@ -88,7 +89,7 @@ std::vector<std::pair<std::string, std::string>> correspondence(const Widths& wi
     pairs.emplace_back(fmt::format("\\wide.{}[{}:0]", name, widths.wider - 1),
                        fmt::format("{}'d0", widths.wider));
   }
-  shifted("channel[0].summation.s4_level_complement", diffuse - 1, (1 << widths.wider) - 1);
+  shifted("color.channel[0].summation.s4_level_complement", diffuse - 1, (1 << widths.wider) - 1);
   // What of_span took of the inputs: y, highlight, first pass and the level.
   const int flags = kCoordinateBits + 2;
   pairs.emplace_back(fmt::format("\\narrow.of_span.s0_start[{}:{}]", diffuse + flags - 1, diffuse),
@@ -99,14 +100,16 @@ std::vector<std::pair<std::string, std::string>> correspondence(const Widths& wi
       fmt::format("\\wide.of_span.s0_start[{}:{}]", diffuse + widths.wider - 1, widths.wider));
   pairs.emplace_back(fmt::format("\\wide.of_span.s0_start[{}:0]", widths.wider - 1),
                      fmt::format("{}'d0", widths.wider));
-  pairs.emplace_back("\\narrow.specular.rom.s5_address", "\\wide.specular.rom.s5_address[6:1]");
+  pairs.emplace_back("\\narrow.color.specular.rom.s5_address",
+                     "\\wide.color.specular.rom.s5_address[6:1]");
   for (int i = 0; i < 128; ++i) {
-    pairs.emplace_back(fmt::format("\\wide.specular.rom.plain.bank[0].table_words[{}]", i),
-                       fmt::format("\\narrow.specular.rom.plain.bank[0].table_words[{}]", i / 2));
+    pairs.emplace_back(
+        fmt::format("\\wide.color.specular.rom.plain.bank[0].table_words[{}]", i),
+        fmt::format("\\narrow.color.specular.rom.plain.bank[0].table_words[{}]", i / 2));
   }
   for (const char* side : {"narrow", "wide"}) {
     for (const char* name : {"bank[0].write_bank", "s6_bank", "s7_bank"}) {
-      pairs.emplace_back(fmt::format("\\{}.specular.rom.plain.{}", side, name), "1'd0");
+      pairs.emplace_back(fmt::format("\\{}.color.specular.rom.plain.{}", side, name), "1'd0");
     }
   }
   return pairs;

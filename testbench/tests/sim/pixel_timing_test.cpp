@@ -27,9 +27,10 @@ struct Times {
   Cycle end = 0;
 };
 
-Times closed_form(const std::vector<Arrival>& arrivals, int depth) {
+Times closed_form(const DatapathConfiguration& datapath, const std::vector<Arrival>& arrivals,
+                  int depth) {
   Times times;
-  PixelTiming timing(kDatapathLatency, depth);
+  PixelTiming timing(datapath, depth);
   for (const Arrival& arrival : arrivals) {
     std::vector<Cycle> cycles = arrival.costs;
     times.in.push_back(timing.next(arrival.asked, cycles.size(), cycles.data()));
@@ -40,9 +41,9 @@ Times closed_form(const std::vector<Arrival>& arrivals, int depth) {
   return times;
 }
 
-Times clock_by_clock(const std::vector<Arrival>& arrivals, int depth) {
+Times clock_by_clock(const DatapathConfiguration& configuration,
+                     const std::vector<Arrival>& arrivals, int depth) {
   Times times;
-  FrameConfiguration configuration;
   DatapathRegisters datapath(configuration);
   HighlightTable table;
   table.roms.emplace_back(configuration, 0.5, 20);
@@ -82,8 +83,10 @@ Times clock_by_clock(const std::vector<Arrival>& arrivals, int depth) {
   return times;
 }
 
-void expect_same_times(const std::vector<Arrival>& arrivals, int depth) {
-  const Times fast = closed_form(arrivals, depth), slow = clock_by_clock(arrivals, depth);
+void expect_same_times(const DatapathConfiguration& datapath, const std::vector<Arrival>& arrivals,
+                       int depth) {
+  const Times fast = closed_form(datapath, arrivals, depth);
+  const Times slow = clock_by_clock(datapath, arrivals, depth);
   EXPECT_EQ(fast.in, slow.in);
   EXPECT_EQ(fast.out, slow.out);
   EXPECT_EQ(fast.end, slow.end);
@@ -108,13 +111,15 @@ TEST(PixelTiming, IsThatOfEveryClock) {
       arrivals.push_back(arrival);
     }
     const int depth = random.integer(1, 20);
-    expect_same_times(arrivals, depth);
+    DatapathConfiguration datapath;
+    datapath.kind = kDatapathKinds[random.below(kDatapathKinds.size())];
+    expect_same_times(datapath, arrivals, depth);
     if (testing::Test::HasFailure()) FAIL() << "case " << i << ", queue of " << depth;
   }
 }
 
 TEST(PixelTiming, ByHand) {
-  PixelTiming timing(kDatapathLatency, 2);
+  PixelTiming timing(DatapathConfiguration{}, 2);
   std::vector<Cycle> cycles = {1, 100, 1, 1, 1};  // in the framebuffer
   EXPECT_EQ(timing.next(10, 5, cycles.data()), 10);
   const Cycle first = 10 + kDatapathLatency;

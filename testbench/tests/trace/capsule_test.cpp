@@ -94,7 +94,7 @@ class Capsules : public testing::Test {
     result_.options.seed = 9;
     result_.rtl.emplace();
     result_.rtl->signal_divergence =
-        SignalDivergence{"pixel_datapath.specular.rom", "address", 10, 81'204, 0x1f3, 0x1f2};
+        SignalDivergence{"pixel_datapath.color.specular.rom", "address", 10, 81'204, 0x1f3, 0x1f2};
     result_.rtl->first_divergence = Divergence{9, 77, 6, 81'206, {8, 9, 10}, {8, 9, 11}, false};
     write_text(file_, capsule_text(load_named_scene("sphere", {}), result_));
   }
@@ -108,7 +108,7 @@ TEST_F(Capsules, KeepEverything) {
   const Capsule capsule = read_capsule(file_, false);
   EXPECT_EQ(capsule.name, "sphere");
   EXPECT_EQ(capsule.found,
-            "pixel_datapath.specular.rom.address: model 0x1f3, rtl 0x1f2 in cycle 81204");
+            "pixel_datapath.color.specular.rom.address: model 0x1f3, rtl 0x1f2 in cycle 81204");
   EXPECT_EQ(configuration_hash(capsule.hardware), configuration_hash(result_.hardware));
   EXPECT_EQ(capsule.options.stall_percent, 20);
   EXPECT_EQ(capsule.options.seed, 9U);

@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 
 class Traces : public testing::Test {
  protected:
-  Traces()
+  explicit Traces(const std::vector<std::string>& settings = {})
       : folder_(fs::path(testing::TempDir()) / fmt::format("phongpipe-trace-{}", getpid())),
-        hardware_(load_hardware("default", {})),
+        hardware_(load_hardware("default", settings)),
         frame_(load_named_scene("sphere", {"scene.image.width=64", "scene.image.height=64",
                                            "scene.object.0.segments=[10,6]"}),
                hardware_.formats, hardware_.setup),
@@ -131,6 +131,29 @@ TEST_F(Traces, ManyWindowsAreOneFile) {
   EXPECT_TRUE(diff.same());
 }
 
+// Pixels of the serial datapath are not in every stage, and several clocks apart.
+class SerialTraces : public Traces {
+ protected:
+  SerialTraces() : Traces({"datapath.kind=serial"}) {}
+};
+TEST_F(SerialTraces, AreComparedWindowByWindow) {
+  record(whole_frame(), "whole.fst");
+  const RecordedTrace trace = record(pixel(30, 31), "window.vcd");
+  ASSERT_EQ(trace.markers.size(), 2U);
+  EXPECT_GE(trace.markers[1].cycle - trace.markers[0].cycle,
+            frame_.setup.configuration.latency_cycles() - 1);
+  for (const auto& [a, b] : {std::pair("whole.fst", "window.vcd"), {"whole.fst", "whole.fst"}}) {
+    const TraceDiff diff = diff_traces(folder_ / a, folder_ / b);
+    EXPECT_TRUE(diff.same()) << a << " and " << b;
+    for (const TraceComparison& c : diff.comparisons) {
+      EXPECT_GT(c.compared, 2U);
+      EXPECT_GT(c.signals, 20U);
+      EXPECT_EQ(c.compared, c.b_pixels);
+      EXPECT_EQ(c.a_latency_cycles, frame_.setup.configuration.latency_cycles());
+    }
+  }
+}
+
 TEST_F(Traces, TracingChangesNothing) {
   TraceOptions options;
   options.simulation.stall_percent = 30;
@@ -227,7 +250,7 @@ TEST_F(Traces, AFaultIsFoundByComparingTraces) {
     if (entry.is_regular_file()) fs::copy(entry.path(), rtl);
   }
   std::string text = read_whole_file(rtl / "pixel_datapath.sv");
-  const std::string correct = "highlight[5:2], s1_highlight";
+  const std::string correct = "highlight[2], s1_highlight";
   text.replace(text.find(correct), correct.size(), correct + " ^ (s1_x == 33 && s1_y == 31)");
   write_text(rtl / "pixel_datapath.sv", text);
   RtlBuildOptions options = build();
@@ -253,6 +276,8 @@ TEST_F(Traces, OfOtherToolsAreComparedByTheirNames) {
   const auto record_with_iverilog = [&](const std::string& name, const std::string& fault) {
     std::vector<std::string> command = {"iverilog",
                                         "-g2012",
+                                        "-s",
+                                        "iverilog_tb",
                                         "-o",
                                         "tb.vvp",
                                         "-I",
@@ -278,7 +303,7 @@ TEST_F(Traces, OfOtherToolsAreComparedByTheirNames) {
   const TraceDiff diff = diff_traces(folder_ / "a.vcd", folder_ / "b.vcd");
   ASSERT_EQ(diff.comparisons.size(), 1U);
   ASSERT_TRUE(diff.comparisons[0].first.has_value());
-  EXPECT_EQ(diff.comparisons[0].first->signal, "pixel_datapath.specular.rom.s5_address");
+  EXPECT_EQ(diff.comparisons[0].first->signal, "pixel_datapath.color.specular.rom.s5_address");
   EXPECT_EQ(diff.comparisons[0].a_pixels, 12U);
   EXPECT_EQ(diff.comparisons[0].a_latency_cycles, kDatapathLatency);
   record(pixel(30, 31), "ours.fst");
