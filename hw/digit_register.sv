@@ -1,5 +1,5 @@
-// A word from its digits, the lowest first: whole in stage 3, two clocks after its last digit was in stage 1,
-// until the next digit is taken; and a clock later in stage 4.
+// A word from its digits, the lowest first. It is whole in the clock after its last digit was at s1_digit, until
+// the next digit is taken: stage 3. A clock later it is in stage 4.
 `include "constants.svh"
 
 module digit_register #(

@@ -26,6 +26,7 @@ module pixel_datapath #(
     parameter int SPECULAR_GUARD     = `PHONGPIPE_GUARD_BITS,
     parameter int ROM_LAYOUT         = `PHONGPIPE_LAYOUT_PLAIN,
     parameter int ROM_OCTAVES        = 4,   // of the octave layouts
+    parameter int X_STEP             = 1,   // from a pixel to the next: lanes of a wide datapath take turns
     localparam int DIFFUSE_WIDTH  = 1 + `PHONGPIPE_GUARD_BITS
                                   + `PHONGPIPE_OUTPUT_BITS + DIFFUSE_FRACTION,
     localparam int SPECULAR_WIDTH = 1 + SPECULAR_GUARD + ROM_ADDRESS_BITS + SPECULAR_FRACTION,
@@ -118,7 +119,7 @@ module pixel_datapath #(
   );
   always_ff @(posedge clk) begin
     // A multiplexer in the form that yosys does not turn into a synchronous set and reset.
-    s0_x_term <= (span_x & {X_BITS{load}}) | X_BITS'(!load);
+    s0_x_term <= (span_x & {X_BITS{load}}) | (X_BITS'(X_STEP) & {X_BITS{!load}});
     if (valid[0]) s1_x <= first[0] ? s0_x_term : s1_x + s0_x_term;
     highlight <= {highlight[2], s1_highlight};
     first_pass <= {first_pass[2], s1_first_pass};

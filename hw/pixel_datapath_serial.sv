@@ -1,12 +1,13 @@
 // pixel_datapath for the smallest devices: few LUTs, several clocks a pixel. span_control and
 // serial_differencer, then color_pipeline and pixel_queue as in the pipelined datapath.
 //
-// Parameters and ports are those of pixel_datapath.sv, but for the words of a span. They stay where they are,
-// and are read digit by digit: in the clock after span_series and span_digit named a digit of the span that
-// was taken last, in that clock or before, it is at span_v, span_d1, span_d2 and span_level (this one where
-// the series is a diffuse one). Digit 0 is the lowest; the words are extended by their signs. Series are
-// counted from 0: specular, gate and cue, as far as they are there, then diffuse, a channel after the other;
-// those count without DIFFUSE, too, for their level.
+// Parameters and ports are those of pixel_datapath.sv, but for the words of a span. They stay outside until the
+// next span is taken, and are read digit by digit, for every pixel anew. span_series and span_digit name a digit
+// of the span that was taken last; it may be taken in the same clock. In the next clock the digit is at span_v,
+// span_d1 and span_d2, and for a diffuse series at span_level. Digit 0 is the lowest. Words are extended by
+// their signs. d2 of the series of depth cueing is 0.
+// Series have the numbers from 0 on: specular, gate and cue, those of them that there are; then diffuse, channel
+// after channel. Without DIFFUSE the diffuse ones are read for their level.
 //
 // A pixel enters every SERIES × DIGITS clocks, and is at the output PHONGPIPE_DATAPATH_LATENCY - 3 clocks after
 // these, and PHONGPIPE_DEPTH_CUE_LATENCY more with DEPTH_CUE.
@@ -79,8 +80,9 @@ module pixel_datapath_serial #(
   localparam int DIGITS = (WIDEST + DIGIT_BITS - 1) / DIGIT_BITS;
   localparam int LAST = `PHONGPIPE_DATAPATH_LATENCY - 3 + (DEPTH_CUE != 0 ? `PHONGPIPE_DEPTH_CUE_LATENCY : 0);
 
-  // Stages, by the number in a register's name or the index of its bit: 0 and 1 of a pixel that enters; 3 the
-  // series, digit by digit, until all are whole; the others are those of color_pipeline.
+  // Stages, by the number in a register's name or the index of its bit: 0 a pixel that entered in the clock
+  // before; 3 its series, when all digits are there; the others are those of color_pipeline. In between, s1_
+  // is stage 1 of serial_differencer.
   logic room, idle, load, enter, s0_valid;
   span_control control (
       .clk,

@@ -42,7 +42,7 @@ module serial_differencer #(
   (* no_rw_check *) logic [2*DIGIT_BITS-1:0] places[1 << (SERIES_BITS + PLACE_BITS)];
   logic [2*DIGIT_BITS-1:0] s1_word, s2_word;
   logic [SERIES_BITS+PLACE_BITS-1:0] s1_place, s2_place;
-  logic s1_first, s1_step, s1_last_digit, s2_step, v_carry, d1_carry;
+  logic s1_first, s1_step, s1_carries, s2_step, v_carry, d1_carry;
 
   wire stepping = |(s1_of_series & s1_stepping);
   assign s1_v = s1_first ? s1_start_v : s1_word[DIGIT_BITS-1:0];
@@ -60,17 +60,17 @@ module serial_differencer #(
     if (idle) s1_first <= first;
     s1_place <= {series, digit};
     s1_word <= places[{series, digit}];
-    s1_last_digit <= last_digit;
-    v_carry <= next_v[DIGIT_BITS+1] && !s1_last_digit;
-    d1_carry <= next_d1[DIGIT_BITS+1] && !s1_last_digit;
+    v_carry <= next_v[DIGIT_BITS+1] && s1_carries;
+    d1_carry <= next_d1[DIGIT_BITS+1] && s1_carries;
     s2_place <= s1_place;
     s2_word <= {next_d1[DIGIT_BITS:1], next_v[DIGIT_BITS:1]};
     if (s2_step) places[s2_place] <= s2_word;
     if (reset) begin
       idle <= 1'b1;
-      {series, digit, s1_step, s1_last, s2_step} <= '0;
+      {series, digit, s1_step, s1_carries, s1_last, s2_step} <= '0;
     end else begin
       s1_step <= step;
+      s1_carries <= step && !last_digit;
       s1_last <= step && last;
       s2_step <= s1_step;
       if (step) begin

@@ -2,6 +2,8 @@
 // the model's values or the Verilated RTL.
 #pragma once
 
+#include <array>
+
 #include "model/fixed/frame_setup.h"
 #include "model/fixed/span.h"
 
@@ -18,6 +20,17 @@ struct DatapathOutputs {
   bool span_ready = false;
   bool pixel_valid = false;
   ShadedPixel pixel;
+  // Of a wide datapath: the pixels beside it, which leave in the same clock.
+  int others = 0;
+  std::array<ShadedPixel, kMostLanes - 1> other;
+
+  // Bit k: whether there is a pixel k side by side.
+  int valid_bits() const { return pixel_valid ? (1 << pixels()) - 1 : 0; }
+  // Of a valid pixel and those beside it.
+  int pixels() const { return 1 + others; }
+  const ShadedPixel& operator[](int i) const {
+    return i == 0 ? pixel : other[static_cast<std::size_t>(i) - 1];
+  }
 };
 
 class ClockedDatapath {

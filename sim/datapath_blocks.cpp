@@ -5,7 +5,9 @@
 namespace phongpipe {
 
 DatapathBlocks::DatapathBlocks(const DatapathConfiguration& configuration)
-    : rom_adders_(static_cast<std::uint64_t>(configuration.rom_adders())) {
+    : rom_adders_(static_cast<std::uint64_t>(configuration.rom_adders())),
+      quadratic_lane_adders_(static_cast<std::uint64_t>(configuration.quadratic_lane_adders())),
+      linear_lane_adders_(static_cast<std::uint64_t>(configuration.linear_lane_adders())) {
   const auto block = [](const std::string& name) {
     return std::make_unique<DatapathBlock>(name.c_str());
   };
@@ -24,17 +26,18 @@ DatapathBlocks::DatapathBlocks(const DatapathConfiguration& configuration)
 
 void DatapathBlocks::shade(const Span& span) {
   const auto pixels = static_cast<std::uint64_t>(span.row.length);
+  const std::uint64_t steps = 2 * pixels + quadratic_lane_adders_;
   if (span.step_diffuse) {
-    for (const Block& series : diffuse_) series->operations.additions += 2 * pixels;
-    if (gate_) gate_->operations.additions += 2 * pixels;
+    for (const Block& series : diffuse_) series->operations.additions += steps;
+    if (gate_) gate_->operations.additions += steps;
   }
-  if (span.step_specular) specular_->operations.additions += 2 * pixels;
+  if (span.step_specular) specular_->operations.additions += steps;
   if (span.highlight) {
     exponent_rom_->operations.reads += pixels;
     exponent_rom_->operations.additions += rom_adders_ * pixels;
     for (const Block& sum : color_sum_) sum->operations.additions += pixels;
   }
-  if (cue_series_) cue_series_->operations.additions += pixels;
+  if (cue_series_) cue_series_->operations.additions += pixels + linear_lane_adders_;
   for (const Block& cue : depth_cue_) {
     cue->operations.additions += 2 * pixels;
     cue->operations.multiplications += pixels;

@@ -48,6 +48,8 @@ class DatapathBlocks {
   std::vector<Block> diffuse_, color_sum_, depth_cue_;  // one per channel, or none
   Block specular_, gate_, exponent_rom_, cue_series_;   // or null
   std::uint64_t rom_adders_;                            // for the increments of a bipartite ROM
+  // For each span and series of a wide datapath: where its lanes start.
+  std::uint64_t quadratic_lane_adders_, linear_lane_adders_;
 };
 
 }  // namespace phongpipe

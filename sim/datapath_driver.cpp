@@ -34,13 +34,19 @@ DatapathDriver::Outcome DatapathDriver::clock(const Span* span, bool pixel_ready
   }
   if (outputs.pixel_valid && pixel_ready) {
     outcome.pixel_taken = true;
-    outcome.pixel = outputs.pixel;
-    if (pixels_in_flight_ <= 0) ++unasked_pixels_;
-    --pixels_in_flight_;
+    outcome.outputs = outputs;
+    if (pixels_in_flight_ < outputs.pixels()) ++unasked_pixels_;
+    pixels_in_flight_ -= outputs.pixels();
   }
   outcome.pixel_held = outputs.pixel_valid && !pixel_ready;
   if (busy && pixel_ready && !outcome.span_taken && !outcome.pixel_taken) ++idle_clocks_;
   return outcome;
+}
+
+std::string DatapathDriver::in_flight_text() const {
+  return pixels_in_flight_ < 0
+             ? fmt::format("{} pixels more from pixel_datapath than spans have", -pixels_in_flight_)
+             : fmt::format("{} pixels in pixel_datapath", pixels_in_flight_);
 }
 
 std::string DatapathDriver::misbehaviour(std::int64_t patience_clocks) const {

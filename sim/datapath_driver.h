@@ -14,8 +14,8 @@ class DatapathDriver {
 
   struct Outcome {
     bool span_taken = false;
-    bool pixel_taken = false;
-    ShadedPixel pixel;
+    bool pixel_taken = false;  // of the outputs, with those beside it
+    DatapathOutputs outputs;
     bool pixel_held = false;  // it is valid, but there is no room for it
     bool loading = false;     // a word of a table was written
   };
@@ -24,6 +24,8 @@ class DatapathDriver {
   Outcome clock(const Span* span, bool pixel_ready);
 
   std::int64_t pixels_in_flight() const { return pixels_in_flight_; }
+  // "12 pixels in pixel_datapath", or how many it emitted too many.
+  std::string in_flight_text() const;
   // Clocks in which the datapath held a pixel or was offered a span.
   std::int64_t busy_clocks() const { return busy_clocks_; }
 

@@ -15,6 +15,14 @@ DatapathRegisters::DatapathRegisters(const DatapathConfiguration& configuration,
                          ? configuration.interval_cycles() - kSerialStages
                          : 0),
       stages_(static_cast<std::size_t>(datapath_stages(configuration) + serial_clocks_)) {
+  if (configuration.lanes() > 1) {
+    DatapathConfiguration of_lane = configuration;
+    of_lane.kind = DatapathKind::pipelined;
+    lanes_.assign(static_cast<std::size_t>(configuration.lanes()),
+                  DatapathRegisters(of_lane, cue_color));
+    lanes_[0].x_step_ = configuration.lanes();
+    return;
+  }
   const ForwardDifferencer diffuse(configuration.diffuse_width());
   for (Stepper& stepper : diffuse_) stepper.now = diffuse;
   specular_.now = ForwardDifferencer(configuration.specular_width());
@@ -27,6 +35,8 @@ DatapathRegisters::DatapathRegisters(const DatapathConfiguration& configuration,
 }
 
 void DatapathRegisters::reset() {
+  for (DatapathRegisters& lane : lanes_) lane.reset();
+  before_lanes_ = {};
   for (DatapathPixel& pixel : stages_) pixel.valid = false;
   last_ = {};
   until_next_ = 0;
@@ -36,6 +46,7 @@ void DatapathRegisters::reset() {
 }
 
 std::size_t DatapathRegisters::pixels_after(int stage) const {
+  if (!lanes_.empty()) return wide_pixels_after(stage);
   std::size_t pixels = queue_.size() + (pixel_valid_ ? 1 : 0);
   for (std::size_t clocks = clocks_to(stage) + 1; clocks < stages_.size(); ++clocks) {
     pixels += after_clocks(clocks).valid ? 1 : 0;
@@ -44,8 +55,9 @@ std::size_t DatapathRegisters::pixels_after(int stage) const {
 }
 
 DatapathOutputs DatapathRegisters::outputs() const {
+  if (!lanes_.empty()) return wide_outputs();
   const bool open = last_.remaining <= 1;  // the next pixel is of another span
-  return {free_ > 0 && until_next_ == 0 && open, pixel_valid_, output_};
+  return {free_ > 0 && until_next_ == 0 && open, pixel_valid_, output_, 0, {}};
 }
 
 void DatapathRegisters::Stepper::load(const SeriesStart& start, bool stepping) {
@@ -81,7 +93,7 @@ void DatapathRegisters::load(const Span& span) {
 void DatapathRegisters::step() {
   ++last_.step;
   --last_.remaining;
-  last_.x = static_cast<std::uint16_t>((last_.x + 1) & ((1 << kCoordinateBits) - 1));
+  last_.x = static_cast<std::uint16_t>((last_.x + x_step_) & ((1 << kCoordinateBits) - 1));
   const bool second = last_.step == 1;
   for (std::size_t c = 0; c < channels(); ++c) diffuse_[c].step(second);
   for (Stepper* const stepper : {&specular_, &gate_, &cue_}) stepper->step(second);
@@ -135,6 +147,7 @@ void DatapathRegisters::shade(DatapathPixel& pixel) const {
 }
 
 DatapathOutputs DatapathRegisters::clock(const DatapathInputs& inputs) {
+  if (!lanes_.empty()) return wide_clock(inputs);
   const DatapathOutputs before = outputs();
   const bool read = !queue_.empty() && (!pixel_valid_ || inputs.pixel_ready);
   const bool leaves = pixel_valid_ && inputs.pixel_ready;
@@ -171,6 +184,75 @@ DatapathOutputs DatapathRegisters::clock(const DatapathInputs& inputs) {
       table_[c][address] = inputs.table->roms[c].contents()[address];
     }
   }
+  return before;
+}
+
+// What lane k of `lanes` takes of a span; of the place, what hw/pixel_datapath_wide.sv says.
+static Span span_of_lane(const Span& span, int k, int lanes) {
+  Span own = span;
+  if (k > 0) {
+    const int own_pixels = (span.row.length + lanes - 1 - k) / lanes;
+    own.row.x = -own_pixels & ((1 << kCoordinateBits) - 1);
+    own.row.y = 0;
+  }
+  own.row.length = (span.row.length + lanes - 1) / lanes;
+  const auto start = [&](const SeriesStart& series, bool stepping) {
+    return lane_start(stepping ? series : SeriesStart{series.v, 0, 0}, k, lanes);
+  };
+  for (SeriesStart& series : own.diffuse) series = start(series, span.step_diffuse);
+  own.specular = start(span.specular, span.step_specular);
+  own.gate = start(span.gate, span.step_diffuse);
+  own.cue = start({span.cue.v, span.cue.d1, 0}, true);
+  return own;
+}
+
+std::size_t DatapathRegisters::wide_pixels_after(int stage) const {
+  const DatapathRegisters& first = lanes_[0];
+  int pixels = 0;
+  if (first.pixel_valid_) {
+    pixels += pixels_side_by_side([](const DatapathRegisters& lane) { return lane.output_.x; });
+  }
+  for (std::size_t i = 0; i < first.queue_.size(); ++i) {
+    pixels += pixels_side_by_side([i](const DatapathRegisters& lane) { return lane.queue_[i].x; });
+  }
+  for (int later = stage + 1; later < datapath_stages(configuration_); ++later) {
+    if (first.in_stage(later).valid) pixels += pixels_in(later);
+  }
+  return static_cast<std::size_t>(pixels);
+}
+
+DatapathOutputs DatapathRegisters::wide_outputs() const {
+  DatapathOutputs outputs = lanes_[0].outputs();
+  outputs.span_ready = outputs.span_ready || !before_lanes_.back().has_value();
+  if (!outputs.pixel_valid) return outputs;
+  outputs.others =
+      pixels_side_by_side([](const DatapathRegisters& lane) { return lane.output_.x; }) - 1;
+  for (int k = 1; k <= outputs.others; ++k) {
+    outputs.other[static_cast<std::size_t>(k) - 1] = {
+        static_cast<std::uint16_t>(outputs.pixel.x + k), outputs.pixel.y,
+        lanes_[static_cast<std::size_t>(k)].output_.color};
+  }
+  return outputs;
+}
+
+DatapathOutputs DatapathRegisters::wide_clock(const DatapathInputs& inputs) {
+  const DatapathOutputs before = wide_outputs();
+  const std::optional<Span>& next = before_lanes_.back();
+  for (std::size_t k = 0; k < lanes_.size(); ++k) {
+    DatapathInputs own = inputs;
+    Span span;
+    if (next) {
+      span = span_of_lane(*next, static_cast<int>(k), static_cast<int>(lanes_.size()));
+      own.span = &span;
+    } else {
+      own.span = nullptr;
+    }
+    lanes_[k].clock(own);
+  }
+  if (!before.span_ready) return before;
+  std::rotate(before_lanes_.begin(), before_lanes_.end() - 1, before_lanes_.end());
+  before_lanes_[0].reset();
+  if (inputs.span != nullptr) before_lanes_[0] = *inputs.span;
   return before;
 }
 

@@ -1,11 +1,13 @@
 // pixel_datapath, clock by clock and register by register: what hw/pixel_datapath.sv and
-// hw/pixel_datapath_serial.sv hold in every clock, computed by the model's blocks.
+// hw/pixel_datapath_serial.sv hold in every clock, and the lanes of hw/pixel_datapath_wide.sv,
+// computed by the model's blocks.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,7 +68,10 @@ class DatapathRegisters : public ClockedDatapath {
   // The outputs in this clock, before its edge.
   DatapathOutputs outputs() const;
 
-  const DatapathPixel& in_stage(int stage) const { return after_clocks(clocks_to(stage)); }
+  // Of a wide datapath: of its first lane; all lanes are in step.
+  const DatapathPixel& in_stage(int stage) const {
+    return lanes_.empty() ? after_clocks(clocks_to(stage)) : lanes_[0].in_stage(stage);
+  }
   // Clocks from stage 0 to another one.
   std::size_t clocks_to(int stage) const {
     return static_cast<std::size_t>(stage < kWholeStage ? stage : stage + serial_clocks_);
@@ -74,6 +79,13 @@ class DatapathRegisters : public ClockedDatapath {
   // Pixels that entered before that of a stage, or before the one that will be next in it, and have
   // not left.
   std::size_t pixels_after(int stage) const;
+  // Pixels side by side in a stage that holds one.
+  int pixels_in(int stage) const {
+    return pixels_side_by_side(
+        [&](const DatapathRegisters& lane) { return lane.in_stage(stage).x; });
+  }
+  // A datapath of a wide one.
+  const DatapathRegisters& lane(std::size_t k) const { return lanes_[k]; }
   // Pixels that are known whole and wait in the queue, without the one at the output.
   std::size_t queued() const { return queue_.size(); }
   // Free slots of the queue, as RTL counts them.
@@ -81,7 +93,9 @@ class DatapathRegisters : public ClockedDatapath {
   // Whether the next pixel that enters is of another span.
   bool between_spans() const { return last_.remaining <= 1; }
   // Words of a channel's table.
-  const std::vector<std::int32_t>& table(std::size_t channel) const { return table_[channel]; }
+  const std::vector<std::int32_t>& table(std::size_t channel) const {
+    return lanes_.empty() ? table_[channel] : lanes_[0].table(channel);
+  }
 
  private:
   // A series at the pixel that entered last.
@@ -95,11 +109,26 @@ class DatapathRegisters : public ClockedDatapath {
   const DatapathPixel& after_clocks(std::size_t clocks) const {
     return stages_[(head_ + clocks) % stages_.size()];
   }
+  std::size_t wide_pixels_after(int stage) const;
+  DatapathOutputs wide_outputs() const;
+  DatapathOutputs wide_clock(const DatapathInputs& inputs);
+  // Of a group: lanes 1 and up have x negative if they have a pixel of it.
+  template <typename X>
+  int pixels_side_by_side(X x_of_lane) const {
+    int pixels = 1;
+    for (std::size_t k = 1; k < lanes_.size(); ++k) {
+      pixels += x_of_lane(lanes_[k]) >> (kCoordinateBits - 1) & 1;
+    }
+    return pixels;
+  }
   std::size_t channels() const { return static_cast<std::size_t>(configuration_.channels); }
   void load(const Span& span);
   void step();
   void shade(DatapathPixel& pixel) const;
 
+  std::vector<DatapathRegisters> lanes_;  // of a wide datapath; they hold what is below x_step_
+  std::array<std::optional<Span>, kLaneStages> before_lanes_;  // spans, the last one goes on first
+  int x_step_ = 1;
   DatapathConfiguration configuration_;
   OutputColor cue_color_;
   std::array<std::vector<std::int32_t>, 3> table_;
@@ -116,6 +145,9 @@ class DatapathRegisters : public ClockedDatapath {
   bool pixel_valid_ = false;
   ShadedPixel output_;
 };
+
+// Where lane k of a wide datapath is, below pixel_datapath.
+std::string lane_scope(int k);
 
 // A register of pixel_datapath: where it is in RTL and here, and how to read it. Waveforms, views,
 // comparisons of registers and the life of a pixel are made from these descriptions.

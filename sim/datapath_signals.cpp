@@ -11,6 +11,10 @@ std::string DatapathSignal::block() const {
   return scope.empty() ? "pixel_datapath" : "pixel_datapath." + scope;
 }
 
+std::string lane_scope(int k) {
+  return fmt::format("lane[{}].datapath", k);
+}
+
 double DatapathSignal::real(std::int64_t bits) const {
   return std::ldexp(static_cast<double>(bits), -fraction_bits);
 }
@@ -369,7 +373,21 @@ class SignalTable {
 }  // namespace
 
 std::vector<DatapathSignal> datapath_signals(const DatapathConfiguration& configuration) {
-  return SignalTable(configuration).all();
+  if (configuration.lanes() == 1) return SignalTable(configuration).all();
+  std::vector<DatapathSignal> all;
+  for (int k = 0; k < configuration.lanes(); ++k) {
+    for (DatapathSignal& signal : SignalTable(configuration).all()) {
+      signal.scope = lane_scope(k) + (signal.scope.empty() ? "" : "." + signal.scope);
+      signal.value = [value = std::move(signal.value), k](const DatapathRegisters& r) {
+        return value(r.lane(static_cast<std::size_t>(k)));
+      };
+      all.push_back(std::move(signal));
+    }
+  }
+  std::stable_sort(all.begin(), all.end(), [](const DatapathSignal& a, const DatapathSignal& b) {
+    return a.stage < b.stage;
+  });
+  return all;
 }
 
 }  // namespace phongpipe

@@ -1,6 +1,7 @@
 // Data shared by all modules of one simulation.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "model/fixed/certificate.h"
@@ -35,11 +36,17 @@ struct FrameContext {
     return outcome;
   }
 
-  // Cycles the framebuffer spends on pixel `stream_index` of the stream.
-  Cycle framebuffer_cycles(bool first_pass, bool taken, std::uint32_t stream_index) {
-    const Cycle cycles = !taken       ? configuration.framebuffer_test_cycles
-                         : first_pass ? configuration.framebuffer_write_cycles
-                                      : configuration.framebuffer_add_cycles;
+  // Cycles the framebuffer spends on a pixel. It takes pixels that arrive side by side at once, in
+  // the time of the slowest.
+  Cycle framebuffer_cycles(bool first_pass, bool taken) const {
+    return !taken       ? configuration.framebuffer_test_cycles
+           : first_pass ? configuration.framebuffer_write_cycles
+                        : configuration.framebuffer_add_cycles;
+  }
+  // Counts these cycles, and adds those of random back-pressure at pixel `stream_index` of the
+  // stream, the first of those side by side.
+  Cycle with_stalls(Cycle cycles, std::uint32_t stream_index) {
+    ++result.pixel_groups;
     result.framebuffer_cycles += cycles;
     if (options.stall_percent == 0) return cycles;
     const std::uint32_t random = scramble(stream_index * 2654435769U + options.stall_seed);
@@ -80,10 +87,11 @@ struct FrameContext {
 
 using WorkHandle = std::shared_ptr<const TriangleWork>;
 
-// A pixel on its way to the framebuffer.
-struct DepthPixel {
-  ShadedPixel pixel;
-  std::uint32_t depth = 0;
+// Pixels side by side on their way to the framebuffer.
+struct DepthPixels {
+  int count = 0;
+  std::array<ShadedPixel, kMostLanes> pixel;
+  std::array<std::uint32_t, kMostLanes> depth = {};
   std::uint32_t triangle = 0;
   bool first_pass = true;
 };

@@ -51,7 +51,7 @@ void simulate_by_clock(FrameContext& context) {
   sc_core::sc_clock clk("clk", period, 0.5, period);
   ClockedFifo<WorkHandle> triangles("triangles", configuration.triangle_fifo);
   ClockedFifo<Span> spans("spans", configuration.span_fifo);
-  ClockedFifo<DepthPixel> pixels("pixels", configuration.pixel_fifo);
+  ClockedFifo<DepthPixels> pixels("pixels", configuration.pixel_fifo);
   DatapathRegisters own_datapath(context.frame.configuration, context.frame.cue_color);
   ClockedDatapath& datapath =
       context.options.datapath != nullptr ? *context.options.datapath : own_datapath;

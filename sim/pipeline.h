@@ -62,6 +62,7 @@ struct SimulationCounts {
   std::vector<SetupUse> setup_uses;
   std::int64_t exact_path_cycles = 0;  // in which exact_path was busy
   OperationCounts exact_path_operations;
+  std::int64_t pixel_groups = 0;  // of pixels that pixel_datapath delivered together
   // In which span_walker and framebuffer were busy with triangles and pixels, waits not included.
   std::int64_t walker_cycles = 0, framebuffer_cycles = 0;
   std::int64_t rom_load_cycles = 0;
@@ -82,7 +83,7 @@ struct SimulationCounts {
         field("setup_cycles_by_path", &C::setup_cycles_by_path),
         field("setup_uses", &C::setup_uses), field("exact_path_cycles", &C::exact_path_cycles),
         field("exact_path_operations", &C::exact_path_operations),
-        field("walker_cycles", &C::walker_cycles),
+        field("pixel_groups", &C::pixel_groups), field("walker_cycles", &C::walker_cycles),
         field("framebuffer_cycles", &C::framebuffer_cycles),
         field("rom_load_cycles", &C::rom_load_cycles),
         field("datapath_busy_cycles", &C::datapath_busy_cycles),

@@ -47,8 +47,9 @@ Settings<P> all_settings() {
                                "depth of the queue before span_walker"));
   all.push_back(number_setting("queues", "spans", &P::span_fifo, "items", 1, 4096,
                                "depth of the queue before pixel_datapath"));
-  all.push_back(number_setting("queues", "pixels", &P::pixel_fifo, "items", 1, 4096,
-                               "depth of the queue before framebuffer"));
+  all.push_back(number_setting(
+      "queues", "pixels", &P::pixel_fifo, "items", 1, 4096,
+      "depth of the queue before framebuffer; of wide datapaths in groups of pixels"));
   return all;
 }
 

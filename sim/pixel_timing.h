@@ -9,11 +9,17 @@
 //             else max(next(j), out(j − slots) + 2)
 //   out(j)  = max(in(j) + latency, out(j−1) + 1, read(j − depth) + 1)
 //   read(j) = max(out(j) + 1, read(j−1) + cost(j−1))
+// Pixels that a wide datapath delivers together are one pixel here. A span of it passes kLaneStages
+// stages, of which the last one waits for the lanes, and all others with it; so a span is taken in
+// the first cycle from `asked` on in which none waits, and waits with those before it, each from
+// its arrival at the last stage until its first pixel enters.
+//
 // A slot is free 2 cycles after its pixel left. A pixel that entered in the cycle before is not
 // counted yet; what is one too many waits at the output of the queue.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "model/fixed/datapath_configuration.h"
@@ -26,14 +32,48 @@ class PixelTiming {
   PixelTiming(const DatapathConfiguration& datapath, int depth)
       : in_(-datapath.interval_cycles()),
         interval_(datapath.interval_cycles()),
-        latency_(datapath.latency_cycles()),
+        latency_(datapath.latency_cycles() - (datapath.lanes() > 1 ? kLaneStages : 0)),
+        is_wide_(datapath.lanes() > 1),
         out_(static_cast<std::size_t>(kPixelQueueSlots) + 1, -kSlotFree),
         read_(static_cast<std::size_t>(depth), -1) {}
 
   // Times the next `count` pixels, of which the first may enter from cycle `asked`. `cycles` is
   // input and output: the cycles each pixel occupies the framebuffer, then the cycle in which it
-  // leaves the datapath. Returns the cycle in which the first pixel enters.
+  // leaves the datapath. Returns the cycle in which their span is taken.
   Cycle next(Cycle asked, std::size_t count, Cycle* cycles) {
+    if (!is_wide_) return enter(asked, count, cycles);
+    span_taken_ = std::max(asked, span_taken_ + 1);
+    for (const Wait& wait : waits_) {  // the earliest first
+      if (wait.arrived <= span_taken_ && span_taken_ < wait.entered) span_taken_ = wait.entered;
+    }
+    Cycle arrived = span_taken_ + kLaneStages;
+    for (const Wait& wait : waits_) {
+      if (wait.entered > span_taken_) arrived += wait.entered - wait.arrived;
+    }
+    std::rotate(waits_.begin(), waits_.begin() + 1, waits_.end());
+    waits_.back() = {arrived, enter(arrived, count, cycles)};
+    return span_taken_;
+  }
+
+  // Times the framebuffer alone, for a pixel that left the datapath in cycle `out`.
+  void read(Cycle out, Cycle cost) {
+    const Cycle read = std::max(out + 1, free_from_);
+    read_[read_slot_] = read;
+    if (++read_slot_ == read_.size()) read_slot_ = 0;
+    free_from_ = read + cost;
+  }
+
+  // The first cycle in which the queue before the framebuffer has a slot for the next pixel.
+  Cycle slot_free_from() const { return read_[read_slot_] + 1; }
+
+  Cycle out() const { return last_out_; }
+  Cycle end() const { return free_from_; }  // the framebuffer is done with all pixels so far
+
+ private:
+  static constexpr Cycle kSlotFree = 2;  // cycles after its pixel left
+
+  // As next(); returns the cycle in which the first pixel enters.
+  Cycle enter(Cycle asked, std::size_t count, Cycle* cycles) {
     if (unhindered() &&
         std::count(cycles, cycles + count, Cycle{1}) == static_cast<std::ptrdiff_t>(count)) {
       return next_unhindered(asked, count, cycles);
@@ -67,29 +107,15 @@ class PixelTiming {
     return taken;
   }
 
-  // Times the framebuffer alone, for a pixel that left the datapath in cycle `out`.
-  void read(Cycle out, Cycle cost) {
-    const Cycle read = std::max(out + 1, free_from_);
-    read_[read_slot_] = read;
-    if (++read_slot_ == read_.size()) read_slot_ = 0;
-    free_from_ = read + cost;
-  }
-
-  // The first cycle in which the queue before the framebuffer has a slot for the next pixel.
-  Cycle slot_free_from() const { return read_[read_slot_] + 1; }
-
-  Cycle out() const { return last_out_; }
-  Cycle end() const { return free_from_; }  // the framebuffer is done with all pixels so far
-
- private:
-  static constexpr Cycle kSlotFree = 2;  // cycles after its pixel left
-
   // Whether the last pixel went through without waiting and occupied the framebuffer for 1 cycle.
-  // Nothing before it can then delay a later pixel that enters in order: out and read grow by at
-  // least 1 a pixel, so out(j − slots) + 2 ≤ out(j−1) − slots + 3 = in(j−1) + latency − slots + 3 ≤
-  // in(j−1) + 1 and, where depth ≥ 2, read(j − depth) + 1 ≤ read(j−1) = out(j−1) + 1. The same
-  // holds for all j after it, so that the earlier values kept in `out_` and `read_` need not be
-  // replaced.
+  // Nothing before it can then delay a later pixel that enters in order. For out grows by at least
+  // 1 a pixel, by `interval` where nothing waits, and in by at least `interval`:
+  //   out(j − slots) + 2 ≤ out(j−1) − slots + 3 = in(j−1) + latency − slots + 3 ≤ in(j−1) +
+  //   interval
+  // as latency − interval ≤ slots − 3 for every kind of datapath; and, where depth ≥ 2,
+  //   read(j − depth) + 1 ≤ read(j−1) = out(j−1) + 1.
+  // The same holds for all j after it, so that the earlier values kept in `out_` and `read_` need
+  // not be replaced.
   bool unhindered() const {
     return read_.size() >= 2 && last_out_ == in_ + latency_ && free_from_ == last_out_ + 2;
   }
@@ -107,8 +133,14 @@ class PixelTiming {
 
   Cycle in_, last_out_ = -1, free_from_ = 0;
   Cycle interval_, latency_;
-  std::vector<Cycle> out_;    // of the last slots + 1 pixels
-  std::size_t out_slot_ = 0;  // of the earliest of these
+  bool is_wide_;
+  Cycle span_taken_ = -1;
+  struct Wait {
+    Cycle arrived = 0, entered = 0;  // at the last stage before the lanes, in the lanes
+  };
+  std::array<Wait, kLaneStages> waits_;  // of the last spans
+  std::vector<Cycle> out_;               // of the last slots + 1 pixels
+  std::size_t out_slot_ = 0;             // of the earliest of these
   std::vector<Cycle> read_;
   std::size_t read_slot_ = 0;
 };

@@ -39,12 +39,17 @@ static_assert(kPixelQueueSlots > kDatapathLatency + kDepthCueLatency + 1);
 // digits, at least.
 constexpr int kDigitBits = 8;
 constexpr int kLeastDigits = 3;
-// A pixel of it has whole series as many clocks after its last digit as one of the pipelined
-// datapath after its entrance, less this.
+// Its latency is the clocks that a pixel takes + kDatapathLatency − kSerialStages: the digits come
+// in place of the stages before kWholeStage.
 constexpr int kSerialStages = 3;
 // Bits of the numbers of a series and of a digit in it.
 constexpr int kSeriesBits = 3;
 constexpr int kDigitPlaceBits = 3;
+
+// Pixels side by side that a wide datapath delivers in a clock, at most, and the clocks in which it
+// computes where its lanes start.
+constexpr int kMostLanes = 4;
+constexpr int kLaneStages = 3;
 
 // A sum of a series is made in two clocks: its low bits, then its upper kHighBits with their carry.
 // Counted from above, so that a series in a wider register is split at the same place.

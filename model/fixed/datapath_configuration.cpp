@@ -10,9 +10,9 @@ const Settings<FixedPointFormats>& FixedPointFormats::settings() {
   using F = FixedPointFormats;
   // Fractions end where the registers of the plain layout have kWidestSeries bits.
   static const Settings<F> all = {
-      choice_setting("datapath", "kind", &F::kind, {"pipelined", "serial"},
+      choice_setting("datapath", "kind", &F::kind, {"pipelined", "serial", "wide2", "wide4"},
                      "a pixel a clock; or a digit of 8 bits of one series a clock, in half the "
-                     "LUTs"),
+                     "LUTs; or 2 or 4 pixels side by side a clock"),
       choice_setting("datapath", "channels", &F::channel_choice, {"auto", "1", "3"},
                      "grey or colour; auto: one channel where all of the scene is grey"),
       number_setting("datapath", "diffuse_fraction_bits", &F::diffuse_fraction_bits, "bits", 4, 30,
@@ -111,7 +111,8 @@ void FrameConfiguration::check() const {
 }
 
 std::string_view rtl_module(const DatapathConfiguration& datapath) {
-  return datapath.kind == DatapathKind::serial ? "pixel_datapath_serial" : "pixel_datapath";
+  if (datapath.kind == DatapathKind::serial) return "pixel_datapath_serial";
+  return datapath.lanes() > 1 ? "pixel_datapath_wide" : "pixel_datapath";
 }
 
 RtlParameters rtl_parameters(const DatapathConfiguration& datapath) {
@@ -122,6 +123,7 @@ RtlParameters rtl_parameters(const DatapathConfiguration& datapath) {
                               {"GATE", static_cast<int>(datapath.gate)},
                               {"SPECULAR_GUARD", datapath.specular_guard_bits},
                               {"ROM_LAYOUT", static_cast<int>(datapath.rom_layout)}};
+  if (datapath.lanes() > 1) parameters.emplace_back("LANES", datapath.lanes());
   for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
     if (!setting.rtl_parameter.empty()) {
       parameters.emplace_back(setting.rtl_parameter, setting.get(datapath));

@@ -38,9 +38,11 @@ constexpr int least_specular_guard_bits(RomLayout layout) {
   return layout == RomLayout::plain ? kGuardBits : kSpecularGuardStep;
 }
 
-// `pipelined`: a pixel a clock. `serial`: a digit of one series a clock, in few LUTs.
-enum class DatapathKind { pipelined, serial };
-constexpr std::array kDatapathKinds = {DatapathKind::pipelined, DatapathKind::serial};
+// `pipelined`: a pixel a clock. `serial`: a digit of one series a clock, in few LUTs. `wide2` and
+// `wide4`: 2 and 4 pixels side by side a clock, of as many pipelined datapaths that take turns.
+enum class DatapathKind { pipelined, serial, wide2, wide4 };
+inline constexpr std::array kDatapathKinds = {DatapathKind::pipelined, DatapathKind::serial,
+                                              DatapathKind::wide2, DatapathKind::wide4};
 
 // `automatic`: one channel if all colours of the scene are grey, else three.
 enum class ChannelChoice { automatic, one, three };
@@ -110,23 +112,39 @@ struct DatapathConfiguration : FixedPointFormats, EffectBlocks {
   int series() const {
     return (diffuse ? channels : 0) + (specular ? 1 : 0) + (has_gate_series() ? 1 : 0);
   }
-  // Additions per pixel, of increments in a bipartite ROM.
+  // Adders of increments in a bipartite ROM, of a lane.
   int rom_adders() const { return specular && rom_layout == RomLayout::bipartite ? channels : 0; }
-  // Additions per pixel: two per series, one per channel to add diffuse and specular, and those of
+  // Adders that compute where the lanes of a wide datapath start: of a quadratic series, of a
+  // linear one; see series_lanes.sv.
+  int quadratic_lane_adders() const { return lanes() == 1 ? 0 : lanes() == 2 ? 3 : 11; }
+  int linear_lane_adders() const { return lanes() - 1; }
+  // Adders: in each lane two per series, one per channel to add diffuse and specular, and those of
   // the ROM. Depth cueing takes one for its linear series and two per channel to move it towards
-  // the cue colour.
+  // the cue colour. The serial datapath has two, of a digit, for all series.
   int adders() const {
-    return 2 * series() + (specular ? channels : 0) + rom_adders() +
-           (depth_cue ? 1 + 2 * channels : 0);
+    const int sums = (specular ? channels : 0) + rom_adders() + (depth_cue ? 2 * channels : 0);
+    if (kind == DatapathKind::serial) return 2 + sums;
+    return lanes() * (2 * series() + sums + (depth_cue ? 1 : 0)) +
+           series() * quadratic_lane_adders() + (depth_cue ? linear_lane_adders() : 0);
   }
-  int multipliers() const { return depth_cue ? channels : 0; }
-  int rom_bits() const { return specular ? rom_words() * channels * rom_data_bits : 0; }
+  int multipliers() const { return depth_cue ? lanes() * channels : 0; }
+  int rom_bits() const { return specular ? lanes() * rom_words() * channels * rom_data_bits : 0; }
   // For values and differences: three registers per series, two for the linear one of depth cueing.
+  // The serial datapath has them in block RAM, and a register for each value and level.
   int register_bits() const {
-    return 3 * ((diffuse ? channels : 0) + (has_gate_series() ? 1 : 0)) * diffuse_width() +
-           (specular ? 3 * specular_width() : 0) + (depth_cue ? 2 * kCueWidth : 0);
+    if (kind == DatapathKind::serial) {
+      return ((diffuse ? 2 : 1) * channels + (has_gate_series() ? 1 : 0)) * diffuse_width() +
+             (specular ? specular_width() : 0) + (depth_cue ? kCueWidth : 0);
+    }
+    return lanes() *
+           (3 * ((diffuse ? channels : 0) + (has_gate_series() ? 1 : 0)) * diffuse_width() +
+            (specular ? 3 * specular_width() : 0) + (depth_cue ? 2 * kCueWidth : 0));
   }
-  // Clocks from a pixel that enters to the next one.
+  // Pixels that enter together, and leave together.
+  int lanes() const {
+    return kind == DatapathKind::wide2 ? 2 : kind == DatapathKind::wide4 ? kMostLanes : 1;
+  }
+  // Clocks from a pixel, or a group of as many as there are lanes, that enters to the next one.
   int interval_cycles() const {
     return kind == DatapathKind::serial ? serial_series() * serial_digits() : 1;
   }
@@ -140,7 +158,8 @@ struct DatapathConfiguration : FixedPointFormats, EffectBlocks {
   // Clocks from the acceptance of a span to its first pixel at the output.
   int latency_cycles() const {
     return kDatapathLatency + (depth_cue ? kDepthCueLatency : 0) +
-           (kind == DatapathKind::serial ? interval_cycles() - kSerialStages : 0);
+           (kind == DatapathKind::serial ? interval_cycles() - kSerialStages : 0) +
+           (lanes() > 1 ? kLaneStages : 0);
   }
 
   // Throws InputError naming key, value and legal range.

@@ -39,6 +39,15 @@ struct SeriesStart {
   std::int64_t d2 = 0;  // difference of the differences, 2 T5
 };
 
+// Start of the pixels `lane`, lane + lanes, lane + 2 lanes … of a span, which steps by `lanes`.
+inline SeriesStart lane_start(const SeriesStart& span, std::int64_t lane, std::int64_t lanes) {
+  const auto sum = [&](std::int64_t constant, std::int64_t d1, std::int64_t d2) {
+    return wrap_add(constant, wrap_add(wrap_mul(span.d1, d1), wrap_mul(span.d2, d2)));
+  };
+  return {sum(span.v, lane, lane * (lane - 1) / 2),
+          sum(0, lanes, lanes * (lanes - 1) / 2 + lanes * lane), sum(0, 0, lanes * lanes)};
+}
+
 class ForwardDifferencer {
  public:
   explicit ForwardDifferencer(int width = 64) : width_(width) {}

@@ -21,7 +21,7 @@ struct SettingDescription {
   std::string_view meaning;
   int low = 0, high = 0;                  // the legal values, inclusive
   std::vector<std::string_view> choices;  // names of the values from 0; empty for a number
-  std::string_view rtl_parameter;         // of pixel_datapath.sv; empty where it has none
+  std::string_view rtl_parameter;         // of the RTL; empty where it has none
   int per_unit = 1;                       // the value counts parts of the unit, so many to one
 
   std::string name() const { return fmt::format("{}.{}", section, key); }

@@ -13,7 +13,7 @@ namespace phongpipe::by_clock {
 class PixelDatapath : public sc_core::sc_module {
  public:
   PixelDatapath(const sc_core::sc_module_name& name, FrameContext& context, sc_core::sc_clock& clk,
-                ClockedFifo<Span>& spans, ClockedFifo<DepthPixel>& pixels,
+                ClockedFifo<Span>& spans, ClockedFifo<DepthPixels>& pixels,
                 ClockedDatapath& datapath)
       : sc_core::sc_module(name),
         context_(context),
@@ -28,6 +28,7 @@ class PixelDatapath : public sc_core::sc_module {
   SC_HAS_PROCESS(PixelDatapath);
 
   std::int64_t in_flight() const { return driver_.pixels_in_flight(); }
+  std::string in_flight_text() const { return driver_.in_flight_text(); }
   std::uint64_t moved() const { return moved_; }
   std::string misbehaviour(std::int64_t patience_clocks) const {
     return driver_.misbehaviour(patience_clocks);
@@ -45,30 +46,42 @@ class PixelDatapath : public sc_core::sc_module {
       blocks_.shade(spans_.front());
       spans_.pop();
     }
-    if (outcome.pixel_taken) deliver(outcome.pixel, cycle);
+    if (outcome.pixel_taken) deliver(outcome.outputs, cycle);
     if (outcome.loading) ++context_.result.rom_load_cycles;
     context_.result.datapath_busy_cycles = driver_.busy_clocks();
     if (outcome.span_taken || outcome.pixel_taken || outcome.loading) ++moved_;
   }
 
-  void tell_state(const DatapathDriver::Outcome& outcome) const {
+  // Busy is a datapath with a pixel for as many clocks as it takes from one to the next.
+  void tell_state(const DatapathDriver::Outcome& outcome) {
     const bool has_work = !spans_.empty() || driver_.pixels_in_flight() > 0;
-    const ModuleState state = outcome.loading       ? ModuleState::loading
-                              : outcome.pixel_taken ? ModuleState::busy
-                              : outcome.pixel_held  ? ModuleState::stalled
-                              : has_work            ? ModuleState::filling
-                                                    : ModuleState::waiting;
+    busy_ = outcome.pixel_taken ? context_.frame.configuration.interval_cycles()
+                                : std::max(0, busy_ - 1);
+    const ModuleState state = outcome.loading         ? ModuleState::loading
+                              : outcome.pixel_held    ? ModuleState::stalled
+                              : has_work && busy_ > 0 ? ModuleState::busy
+                              : outcome.pixel_taken   ? ModuleState::busy
+                              : has_work              ? ModuleState::filling
+                                                      : ModuleState::waiting;
     context_.tell(Module::pixel_datapath, state,
                   in_flight_.empty() ? 0 : in_flight_.front().triangle, spans_.size());
   }
 
-  void deliver(const ShadedPixel& pixel, Cycle cycle) {
-    context_.record(pixel, cycle);
-    if (in_flight_.empty()) return;  // the pixel belongs to no span; the comparison reports it
+  void deliver(const DatapathOutputs& outputs, Cycle cycle) {
+    for (int i = 0; i < outputs.pixels(); ++i) context_.record(outputs[i], cycle);
+    if (in_flight_.empty()) return;  // the pixels belong to no span; the comparison reports it
     const Span& span = in_flight_.front();
-    pixels_.push({pixel, phongpipe::Framebuffer::depth(context_.frame, span, delivered_),
-                  span.triangle, span.first_pass});
-    if (++delivered_ == span.row.length) {
+    DepthPixels pixels;
+    pixels.triangle = span.triangle;
+    pixels.first_pass = span.first_pass;
+    while (pixels.count < outputs.pixels() && delivered_ < span.row.length) {
+      const auto i = static_cast<std::size_t>(pixels.count);
+      pixels.pixel[i] = outputs[pixels.count];
+      pixels.depth[i] = phongpipe::Framebuffer::depth(context_.frame, span, delivered_++);
+      ++pixels.count;
+    }
+    pixels_.push(pixels);
+    if (delivered_ == span.row.length) {
       in_flight_.pop_front();
       delivered_ = 0;
     }
@@ -76,10 +89,11 @@ class PixelDatapath : public sc_core::sc_module {
 
   FrameContext& context_;
   ClockedFifo<Span>& spans_;
-  ClockedFifo<DepthPixel>& pixels_;
+  ClockedFifo<DepthPixels>& pixels_;
   DatapathDriver driver_;
   DatapathBlocks blocks_;
   Cycle cycle_ = 0;
+  int busy_ = 0;                // clocks left of the pixel that was delivered last
   std::deque<Span> in_flight_;  // spans whose pixels are in the datapath
   int delivered_ = 0;           // pixels delivered of the first span in flight
   std::uint64_t moved_ = 0;

@@ -18,7 +18,7 @@ struct Modules {
   const Framebuffer& framebuffer;
   const ClockedFifo<WorkHandle>& triangles;
   const ClockedFifo<Span>& spans;
-  const ClockedFifo<DepthPixel>& pixels;
+  const ClockedFifo<DepthPixels>& pixels;
 };
 
 class Watchdog : public sc_core::sc_module {
@@ -64,11 +64,11 @@ class Watchdog : public sc_core::sc_module {
     return fmt::format(
         "nothing has moved for {} cycles: setup_engine {}, triangle queue {} of {}, span_walker "
         "{}, "
-        "span queue {} of {}, pixel_datapath {} pixels in flight, pixel queue {} of {}, "
+        "span queue {} of {}, {}, pixel queue {} of {}, "
         "framebuffer {}",
         context_.options.watchdog_cycles, m.setup_engine.done() ? "done" : "waiting",
         m.triangles.size(), m.triangles.depth(), m.span_walker.idle() ? "idle" : "waiting",
-        m.spans.size(), m.spans.depth(), m.pixel_datapath.in_flight(), m.pixels.size(),
+        m.spans.size(), m.spans.depth(), m.pixel_datapath.in_flight_text(), m.pixels.size(),
         m.pixels.depth(), m.framebuffer.busy() ? "busy" : "idle");
   }
 

@@ -4,18 +4,18 @@
 
 namespace phongpipe::by_span {
 
-// Clocks without a pixel and without a span that are simulated before time jumps to the next span.
-// More than a datapath holds, so that one that emits what nobody asked for is caught.
-constexpr Cycle kIdleClocks = 8;
-
 void ClockedPixelDatapath::run() {
+  // Clocks without a pixel and without a span that are simulated before time jumps to the next
+  // span: longer than from one pixel to the next, so that a datapath that emits one too many is
+  // caught.
+  const Cycle patience = context_.frame.configuration.interval_cycles() + 8;
   Cycle last_progress = 0, idle_clocks = 0;
   for (Cycle cycle = 0;; ++cycle) {
     const bool more = spans_.wait_for_item();
     if (!more && driver_.pixels_in_flight() <= 0) break;
     const bool visible = more && spans_.front_seen_from() <= cycle;
     idle_clocks = visible || driver_.pixels_in_flight() > 0 ? 0 : idle_clocks + 1;
-    if (more && idle_clocks > kIdleClocks) {
+    if (more && idle_clocks > patience) {
       last_progress = spans_.front_seen_from();
       cycle = last_progress - 1;
       continue;
@@ -26,7 +26,7 @@ void ClockedPixelDatapath::run() {
       in_flight_.push_back(spans_.front());
       spans_.pop(cycle);
     }
-    if (outcome.pixel_taken) deliver(outcome.pixel, cycle);
+    if (outcome.pixel_taken) deliver(outcome.outputs, cycle);
     if (outcome.loading) ++context_.result.rom_load_cycles;
     if (cycle % kCheckInterval == 0) {
       context_.result.failure = driver_.misbehaviour(context_.options.watchdog_cycles);
@@ -52,14 +52,14 @@ void ClockedPixelDatapath::run() {
   wait(static_cast<double>(timing_.end()), sc_core::SC_NS);  // the kernel's clock catches up
 }
 
-void ClockedPixelDatapath::deliver(const ShadedPixel& pixel, Cycle cycle) {
-  context_.record(pixel, cycle);
-  if (in_flight_.empty()) return;  // a pixel nobody asked for; the comparison will tell
-  // A wrong place must not write outside the image; the comparison will tell that, too.
-  const bool inside = framebuffer_.contains(pixel.x, pixel.y);
-  const Cycle cost = inside ? framebuffer_.take(in_flight_.front(), delivered_, pixel) : 1;
-  timing_.read(cycle, cost);
-  if (++delivered_ == in_flight_.front().row.length) {
+void ClockedPixelDatapath::deliver(const DatapathOutputs& outputs, Cycle cycle) {
+  for (int i = 0; i < outputs.pixels(); ++i) context_.record(outputs[i], cycle);
+  if (in_flight_.empty()) return;  // pixels nobody asked for; the comparison will tell
+  const Span& span = in_flight_.front();
+  const int count = std::min(outputs.pixels(), span.row.length - delivered_);
+  timing_.read(cycle, framebuffer_.take(span, delivered_, count, outputs));
+  delivered_ += count;
+  if (delivered_ == span.row.length) {
     in_flight_.pop_front();
     delivered_ = 0;
   }
@@ -67,10 +67,10 @@ void ClockedPixelDatapath::deliver(const ShadedPixel& pixel, Cycle cycle) {
 
 std::string ClockedPixelDatapath::stuck(Cycle cycle) const {
   return fmt::format(
-      "nothing has moved for {} cycles, at cycle {}: span queue {} of {}, {} pixels in "
-      "pixel_datapath ({} delivered), framebuffer {}",
+      "nothing has moved for {} cycles, at cycle {}: span queue {} of {}, {} ({} delivered), "
+      "framebuffer {}",
       context_.options.watchdog_cycles, cycle, spans_.size(), spans_.depth(),
-      driver_.pixels_in_flight(), context_.delivered,
+      driver_.in_flight_text(), context_.delivered,
       timing_.slot_free_from() <= cycle ? "ready" : "busy");
 }
 

@@ -29,7 +29,7 @@ class ClockedPixelDatapath : public sc_core::sc_module {
   static constexpr Cycle kCheckInterval = 64;  // checking more often would cost simulation time
 
   void run();
-  void deliver(const ShadedPixel& pixel, Cycle cycle);
+  void deliver(const DatapathOutputs& outputs, Cycle cycle);
   std::string stuck(Cycle cycle) const;
 
   FrameContext& context_;

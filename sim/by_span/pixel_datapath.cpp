@@ -26,6 +26,13 @@ std::size_t PixelDatapath::shade_waiting() {
   return count;
 }
 
+Cycle PixelDatapath::time_pixels(Cycle asked, std::size_t length, Cycle* cycles) {
+  if (lanes_ == 1) return timing_.next(asked, length, cycles);
+  const Cycle taken = timing_.next(asked, (length + lanes_ - 1) / lanes_, cycles);
+  for (std::size_t i = length; i-- > 0;) cycles[i] = cycles[i / lanes_];
+  return taken;
+}
+
 void PixelDatapath::run() {
   while (spans_.wait_for_item()) {
     Cycle ready = 0;  // from which the next span may enter
@@ -37,8 +44,8 @@ void PixelDatapath::run() {
       const auto length = static_cast<std::size_t>(span.row.length);
       Cycle* const cycles = cycles_.data() + end;
       blocks_.shade(span);
-      framebuffer_.take(span, colors_.data() + end, cycles);
-      spans_.pop(timing_.next(std::max(ready, spans_.front_seen_from()), length, cycles));
+      framebuffer_.take(span, static_cast<int>(lanes_), colors_.data() + end, cycles);
+      spans_.pop(time_pixels(std::max(ready, spans_.front_seen_from()), length, cycles));
       for (int i = 0; i < span.row.length; ++i, ++end) {
         pixels_[end] = {static_cast<std::uint16_t>(span.row.x + i),
                         static_cast<std::uint16_t>(span.row.y), colors_[end]};

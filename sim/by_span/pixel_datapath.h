@@ -18,7 +18,8 @@ class PixelDatapath : public sc_core::sc_module {
         framebuffer_(framebuffer),
         blocks_(context.frame.configuration),
         values_(context.frame.configuration, best_evaluation(), context.frame.cue_color),
-        timing_(context.frame.configuration, context.configuration.pixel_fifo) {
+        timing_(context.frame.configuration, context.configuration.pixel_fifo),
+        lanes_(static_cast<std::size_t>(context.frame.configuration.lanes())) {
     SC_THREAD(run);
   }
   SC_HAS_PROCESS(PixelDatapath);
@@ -31,6 +32,11 @@ class PixelDatapath : public sc_core::sc_module {
   // Shades the waiting spans that are contiguous in the queue and whose table is loaded; returns
   // their number, at least 1.
   std::size_t shade_waiting();
+  // Times the next `length` pixels, of which the first may enter from cycle `asked`. `cycles` is
+  // input and output: the cycles that each group of pixels side by side occupies the framebuffer,
+  // then the cycle in which each pixel leaves the datapath. Returns the cycle in which their span
+  // is taken.
+  Cycle time_pixels(Cycle asked, std::size_t length, Cycle* cycles);
 
   FrameContext& context_;
   TimestampedFifo<Span>& spans_;
@@ -38,6 +44,7 @@ class PixelDatapath : public sc_core::sc_module {
   DatapathBlocks blocks_;
   phongpipe::PixelDatapath values_;
   PixelTiming timing_;
+  std::size_t lanes_;
   std::uint32_t loaded_ = ~std::uint32_t{0};
   // Of the pixels of the spans shaded last.
   std::vector<std::uint32_t> colors_;

@@ -24,10 +24,11 @@ std::string scope_text(const std::string& scope) {
 }
 
 std::string comparison_text(const TraceComparison& c) {
-  std::string text = fmt::format(
-      "{}  {} and {}: {} pixels with {} signals each{}\n", c.same() ? "SAME" : "DIFFERENT",
-      printable(scope_text(c.a_scope)), printable(scope_text(c.b_scope)), c.compared, c.signals,
-      c.compared == 0 && !c.first ? ", for they have no pixel in common" : "");
+  std::string text =
+      fmt::format("{}  {} and {}: {} {} with {} signals each{}\n", c.same() ? "SAME" : "DIFFERENT",
+                  printable(scope_text(c.a_scope)), printable(scope_text(c.b_scope)), c.compared,
+                  c.lanes == 1 ? "pixels" : "groups of pixels", c.signals,
+                  c.compared == 0 && !c.first ? ", for they have no pixel in common" : "");
   if (c.first) {
     const TraceDifference& d = *c.first;
     text += fmt::format("  first    {} of the pixel at x {}, y {}, number {} of both\n",

@@ -63,6 +63,7 @@ void Lockstep::compare_table() {
   const int bits = configuration_.rom_data_bits;
   std::size_t place = 0;  // of the word in the table
   for (const RtlSignalView* const words : rom_memories(signals_)) {
+    if (place == static_cast<std::size_t>(configuration_.rom_words())) place = 0;  // another lane
     if (place + static_cast<std::size_t>(words->elements) >
         static_cast<std::size_t>(configuration_.rom_words())) {
       return;
@@ -82,11 +83,17 @@ void Lockstep::compare_outputs(const DatapathOutputs& rtl, const DatapathOutputs
   const auto port = [&](const char* name, int width, std::int64_t expected, std::int64_t found) {
     differs(pixel, {"pixel_datapath", name, width, cycle_, expected, found});
   };
-  port("pixel_valid", 1, model.pixel_valid, rtl.pixel_valid);
+  const int lanes = configuration_.lanes();
+  port("pixel_valid", lanes, model.valid_bits(), rtl.valid_bits());
   if (model.pixel_valid) {
     port("pixel_x", kCoordinateBits, model.pixel.x, rtl.pixel.x);
     port("pixel_y", kCoordinateBits, model.pixel.y, rtl.pixel.y);
-    port("pixel_color", configuration_.channels * kOutputBits, model.pixel.color, rtl.pixel.color);
+    for (int k = 0; k < std::min(model.pixels(), rtl.pixels()); ++k) {
+      differs(pixel + static_cast<std::uint64_t>(k),
+              {lanes == 1 ? "pixel_datapath" : fmt::format("pixel_datapath.{}", lane_scope(k)),
+               "pixel_color", configuration_.channels * kOutputBits, cycle_, model[k].color,
+               rtl[k].color});
+    }
   }
   pixel = span_end_;
   port("span_ready", 1, model.span_ready, rtl.span_ready);
@@ -125,7 +132,9 @@ DatapathOutputs Lockstep::clock(const DatapathInputs& inputs) {
   const DatapathOutputs rtl = rtl_.clock(inputs);  // compares registers before the edge
   const DatapathOutputs model = model_.clock(inputs);
   compare_outputs(rtl, model);
-  if (model.pixel_valid && inputs.pixel_ready) ++delivered_;
+  if (model.pixel_valid && inputs.pixel_ready) {
+    delivered_ += static_cast<std::uint64_t>(model.pixels());
+  }
   if (inputs.table != nullptr && inputs.rom_address + 1 == configuration_.rom_words()) {
     table_settles_ = 2;
   }
@@ -173,8 +182,9 @@ std::optional<SignalDivergence> find_in_span(const FrameSetup& frame, RtlDatapat
   for (std::int64_t cycle = 0; delivered_cycle < 0; ++cycle) {
     const auto outcome = driver.clock(taken_cycle < 0 ? &span : nullptr, true);
     if (outcome.span_taken) taken_cycle = cycle;
-    if (outcome.pixel_taken && delivered++ == index) delivered_cycle = cycle;
-    const bool empty = taken_cycle >= 0 && driver.pixels_in_flight() == 0;
+    if (outcome.pixel_taken) delivered += static_cast<std::uint64_t>(outcome.outputs.pixels());
+    if (delivered_cycle < 0 && delivered > index) delivered_cycle = cycle;
+    const bool empty = taken_cycle >= 0 && driver.pixels_in_flight() <= 0;
     if (empty || !driver.misbehaviour(kPatience).empty()) break;
   }
   std::optional<SignalDivergence> found = lockstep.found();

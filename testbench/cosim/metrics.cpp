@@ -208,7 +208,7 @@ std::vector<Metric> all_metrics() {
        [](const Result& r) { return count(r.configuration.multipliers()); }, true},
       {"register_bits", "", "bits", kLess, "of the datapath's series",
        [](const Result& r) { return count(r.configuration.register_bits()); }, true},
-      {"rom_bits", "", "bits", kLess, "of the exponent ROM, all channels",
+      {"rom_bits", "", "bits", kLess, "of the exponent ROM, all channels and lanes",
        [](const Result& r) { return count(r.configuration.rom_bits()); }, true},
       {"setup_operations", "", "", kLess,
        "additions, multiplications, 1/√ and powers of the setup engine",

@@ -272,9 +272,11 @@ std::string canonical_text(std::uint64_t scene_hash, const Hardware& hardware,
     text += fmt::format(" {}:{},{},{},{}", design.parameters, design.clock_ns, design.luts,
                         design.registers, design.block_rams);
   }
-  for (const FittedModel* const model :
-       {&technology.clock_model, &technology.lut_model, &technology.register_model}) {
-    text += fmt::format(" {}", fmt::join(model->coefficients, ","));
+  for (const auto& [module, models] : technology.fitted) {
+    text += " " + module;
+    for (const FittedModel* const model : {&models.clock_ns, &models.luts, &models.registers}) {
+      text += fmt::format(" {}", fmt::join(model->coefficients, ","));
+    }
   }
   text += "\n";
   for (const RunOption& option : run_options()) {

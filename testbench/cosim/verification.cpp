@@ -228,7 +228,8 @@ std::vector<BlockLoad> VerificationResult::block_loads() const {
   std::vector<BlockLoad> loads = {
       {kSetupEngine, counts.setup_cycles},
       {"span_walker", counts.walker_cycles},
-      {"pixel_datapath", static_cast<std::int64_t>(pixels) + counts.rom_load_cycles},
+      {"pixel_datapath",
+       counts.pixel_groups * configuration.interval_cycles() + counts.rom_load_cycles},
       {"framebuffer", counts.framebuffer_cycles}};
   if (certified_error_lsb) {
     loads.insert(loads.begin() + 1, BlockLoad{"exact_path", counts.exact_path_cycles});

@@ -22,9 +22,10 @@ namespace {
 
 struct Device {
   const char *card, *title, *device, *package;
+  int most_lanes;  // with more, a design does not fit, or is not placed within minutes
 };
-constexpr Device kDevices[] = {{"ice40-hx8k", "Lattice iCE40-HX8K", "hx8k", "ct256"},
-                               {"ice40-up5k", "Lattice iCE40-UP5K", "up5k", "sg48"}};
+constexpr Device kDevices[] = {{"ice40-hx8k", "Lattice iCE40-HX8K", "hx8k", "ct256", 4},
+                               {"ice40-up5k", "Lattice iCE40-UP5K", "up5k", "sg48", 2}};
 
 DatapathConfiguration of_preset(const char* preset, int channels) {
   DatapathConfiguration datapath{load_hardware(preset, {"technology=generic"}).formats, {}};
@@ -99,12 +100,32 @@ std::vector<DatapathConfiguration> configurations() {
     c.depth_cue = true;
     c.gate = GateSource::series;
   });
+  for (const DatapathKind kind : {DatapathKind::serial, DatapathKind::wide2, DatapathKind::wide4}) {
+    const auto add_kind = [&](DatapathConfiguration base, auto change) {
+      base.kind = kind;
+      add(base, change);
+    };
+    for (const DatapathConfiguration& base : {usual, paper}) {
+      add_kind(base, [](auto&) {});
+      add_kind(base, [](auto& c) { c.channels = 3; });
+    }
+    if (kind == DatapathKind::wide4) continue;
+    add_kind(paper, [](auto& c) { c.diffuse_fraction_bits = 24; });
+    if (kind == DatapathKind::wide2) continue;
+    add_kind(usual, [](auto& c) { c.depth_cue = true; });
+    add_kind(usual, [](auto& c) { c.gate = GateSource::series; });
+    add_kind(paper, [](auto& c) { c.specular = false; });
+    add_kind(paper, [](auto& c) {
+      c.depth_cue = true;
+      c.channels = 3;
+    });
+  }
   return all;
 }
 
-std::string model_text(const char* name, const FittedModel& model) {
-  std::string text =
-      fmt::format("\n[fitted.{}]\nrelative_error = {:.4f}\n", name, model.relative_error);
+std::string model_text(std::string_view module, const char* name, const FittedModel& model) {
+  std::string text = fmt::format("\n[fitted.{}.{}]\nrelative_error = {:.4f}\n", module, name,
+                                 model.relative_error);
   std::size_t i = 0;
   for (const auto& [feature, value] : synthesis_features({})) {
     const double coefficient = model.coefficients[i++];
@@ -130,7 +151,7 @@ std::string design_text(const MeasuredDesign& d) {
 
 std::string card_text(const Device& device, const Designs& designs, const std::string& tools) {
   std::string text = fmt::format(
-      "# {}. Written by scripts/synthesize.sh: pixel_datapath between registers, {} seeds. "
+      "# {}. Written by scripts/synthesize.sh: datapaths between registers, {} seeds. "
       "clock_ns is\n"
       "# the median of the seeds, slowest_ns the worst; limited_by is the block at the end of the\n"
       "# longest path. Other configurations are fitted: relative_error is the largest of a design\n"
@@ -138,16 +159,22 @@ std::string card_text(const Device& device, const Designs& designs, const std::s
       "name = \"{}\"\nsource = \"this RTL, placed and routed by {}\"\n"
       "device = \"{}\"\npackage = \"{}\"\n",
       device.title, kPlacementSeeds, device.card, tools, device.device, device.package);
-  const auto fitted = [&](auto member, const std::vector<std::string_view>& features) {
-    std::vector<double> values;
-    for (const MeasuredDesign& design : designs.measured) {
-      values.push_back(static_cast<double>(design.*member));
-    }
-    return fit_model(designs.configurations, values, features);
-  };
-  text += model_text("clock_ns", fitted(&MeasuredDesign::clock_ns, clock_features()));
-  text += model_text("luts", fitted(&MeasuredDesign::luts, area_features()));
-  text += model_text("registers", fitted(&MeasuredDesign::registers, area_features()));
+  for (const std::string_view module : kFittedModules) {
+    const auto add = [&](const char* name, auto member, const auto& features) {
+      std::vector<DatapathConfiguration> configurations;
+      std::vector<double> values;
+      for (std::size_t i = 0; i < designs.measured.size(); ++i) {
+        if (rtl_module(designs.configurations[i]) != module) continue;
+        configurations.push_back(designs.configurations[i]);
+        values.push_back(static_cast<double>(designs.measured[i].*member));
+      }
+      if (values.size() <= features(module).size() + 1) return;  // too few to leave one out
+      text += model_text(module, name, fit_model(configurations, values, features(module)));
+    };
+    add("clock_ns", &MeasuredDesign::clock_ns, clock_features);
+    add("luts", &MeasuredDesign::luts, area_features);
+    add("registers", &MeasuredDesign::registers, area_features);
+  }
   for (const MeasuredDesign& d : designs.measured) {
     text += "\n[[measured]]\n" + design_text(d);
   }
@@ -186,6 +213,7 @@ void write_cards(const std::filesystem::path& folder) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Netlist netlist(datapath_target(all[i]), installation().hardware);
     for (const Device& device : kDevices) {
+      if (all[i].lanes() > device.most_lanes) continue;
       fmt::print("{}/{} {} {}: ", i + 1, all.size(), device.card, rtl_parameters_text(all[i]));
       try {
         const MeasuredDesign design = netlist.place(device.device, device.package);

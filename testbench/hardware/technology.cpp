@@ -90,24 +90,26 @@ std::vector<std::pair<std::string_view, double>> synthesis_features(
   if (specular != 0) longest = std::max(longest, low_bits(c.specular_width()));
   if (cue != 0) longest = std::max(longest, low_bits(kCueWidth));
   const bool plain = c.rom_layout == RomLayout::plain;
+  const int lanes = c.lanes();
   constexpr int kBankBits = 11;
   const int banks =
       plain && c.rom_address_bits > kBankBits ? 1 << (c.rom_address_bits - kBankBits) : 1;
+  const int word_bits = specular * lanes * c.channels * c.rom_data_bits;
   return {{"constant", 1},
-          {"channels", c.channels},
+          {"lanes", lanes},
+          {"channels", lanes * c.channels},
           {"longest_low_carry_bits", longest},
-          {"series_bits",
-           (diffuse + gate) * c.diffuse_width() + specular * c.specular_width() + cue * kCueWidth},
-          {"level_bits", c.channels * c.diffuse_width()},
-          {"word_bits", specular * c.channels * c.rom_data_bits},
-          {"bank_bits", specular * c.channels * c.rom_data_bits * (banks - 1)},
-          {"octave_address_bits", plain ? 0 : specular * c.rom_address_bits},
-          {"increment_bits",
-           c.rom_layout == RomLayout::bipartite ? specular * c.channels * c.rom_data_bits : 0},
-          {"specular", specular},
-          {"gate_series", gate},
-          {"depth_cue", cue},
-          {"depth_cue_channels", cue * c.channels}};
+          {"series_bits", lanes * ((diffuse + gate) * c.diffuse_width() +
+                                   specular * c.specular_width() + cue * kCueWidth)},
+          {"level_bits", lanes * c.channels * c.diffuse_width()},
+          {"word_bits", word_bits},
+          {"bank_bits", word_bits * (banks - 1)},
+          {"octave_address_bits", plain ? 0 : lanes * specular * c.rom_address_bits},
+          {"increment_bits", c.rom_layout == RomLayout::bipartite ? word_bits : 0},
+          {"specular", lanes * specular},
+          {"gate_series", lanes * gate},
+          {"depth_cue", lanes * cue},
+          {"depth_cue_channels", lanes * cue * c.channels}};
 }
 
 double FittedModel::value(const DatapathConfiguration& configuration) const {
@@ -137,8 +139,8 @@ ClockFigure Technology::clock(const DatapathConfiguration& configuration) const 
       measured.begin(), measured.end(), [&](const MeasuredDesign& a, const MeasuredDesign& b) {
         return in_common(parameters, a.parameters) < in_common(parameters, b.parameters);
       });
-  return {clock_model.value(configuration), FigureKind::fitted, clock_model.relative_error,
-          design->limited_by};
+  const FittedModel& model = models_of(configuration).clock_ns;
+  return {model.value(configuration), FigureKind::fitted, model.relative_error, design->limited_by};
 }
 
 std::optional<AreaFigure> Technology::area(const DatapathConfiguration& configuration) const {
@@ -149,7 +151,17 @@ std::optional<AreaFigure> Technology::area(const DatapathConfiguration& configur
   const auto count = [&](const FittedModel& model) {
     return static_cast<int>(std::lround(model.value(configuration)));
   };
-  return AreaFigure{FigureKind::fitted, count(lut_model), count(register_model), {}};
+  const FittedModels& models = models_of(configuration);
+  return AreaFigure{FigureKind::fitted, count(models.luts), count(models.registers), {}};
+}
+
+const FittedModels& Technology::models_of(const DatapathConfiguration& configuration) const {
+  const auto found = fitted.find(rtl_module(configuration));
+  if (found != fitted.end()) return found->second;
+  throw InputError(
+      fmt::format("technology {}: no [fitted.{}] in the card, for configurations that "
+                  "it does not list; choose another technology",
+                  name, rtl_module(configuration)));
 }
 
 Technology load_technology(const std::string& name) {
@@ -166,9 +178,14 @@ Technology load_technology(const std::string& name) {
     technology.device = table.text("device");
     technology.package = table.text("package");
     const TomlTable fitted = table.table("fitted");
-    technology.clock_model = read_model(fitted, "clock_ns");
-    technology.lut_model = read_model(fitted, "luts");
-    technology.register_model = read_model(fitted, "registers");
+    for (const std::string_view module : kFittedModules) {
+      if (!fitted.has(module)) continue;
+      const TomlTable models = fitted.table(module);
+      technology.fitted[std::string(module)] = {read_model(models, "clock_ns"),
+                                                read_model(models, "luts"),
+                                                read_model(models, "registers")};
+      models.finish();
+    }
     fitted.finish();
     for (const TomlTable& design : table.tables("measured")) {
       technology.measured.push_back(read_design(design));

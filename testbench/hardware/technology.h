@@ -3,7 +3,9 @@
 // technologies hold one clock, which is assumed.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,7 +52,8 @@ struct MeasuredUnit {
   MeasuredDesign design;
 };
 
-// What the figures of a configuration depend on, as a linear model sees it: names and values.
+// What the figures of a configuration depend on, as a linear model sees it: names and values. Of a
+// wide datapath, what all its lanes have together.
 std::vector<std::pair<std::string_view, double>> synthesis_features(
     const DatapathConfiguration& configuration);
 
@@ -61,19 +64,30 @@ struct FittedModel {
   double value(const DatapathConfiguration& configuration) const;
 };
 
+// Those of one module of datapath.
+struct FittedModels {
+  FittedModel clock_ns, luts, registers;
+};
+constexpr std::array<std::string_view, 3> kFittedModules = {
+    "pixel_datapath", "pixel_datapath_serial", "pixel_datapath_wide"};
+
 struct Technology {
   std::string name;
   std::string source;           // where the figures come from
   std::string device, package;  // for nextpnr; empty if it cannot be placed and routed
   std::vector<MeasuredDesign> measured;
-  FittedModel clock_model, lut_model, register_model;  // if `measured`
-  ClockFigure fixed;                                   // if not `measured`
-  std::vector<MeasuredUnit> units;                     // if `measured`
+  std::map<std::string, FittedModels, std::less<>> fitted;  // by module, if `measured`
+  ClockFigure fixed;                                        // if not `measured`
+  std::vector<MeasuredUnit> units;                          // if `measured`
 
   ClockFigure clock(const DatapathConfiguration& configuration) const;
   // None if the card has no areas.
   std::optional<AreaFigure> area(const DatapathConfiguration& configuration) const;
   const MeasuredDesign* find(const DatapathConfiguration& configuration) const;  // or null
+
+ private:
+  // Throws InputError if the card has none of this module.
+  const FittedModels& models_of(const DatapathConfiguration& configuration) const;
 };
 
 // Loads a card from a file, or by its name. Throws InputError.

@@ -193,11 +193,13 @@ Curve block_curve(const std::shared_ptr<const PreparedScene>& scene, const Hardw
   };
   SetupTimes times(pipeline);
   double clock_ns = 0;
+  DatapathConfiguration datapath;
   for (std::size_t i = 0; i < series_fit_names().size(); ++i) {
     SetupPolicy policy = hardware.setup;
     policy.series_fit = static_cast<SeriesFit>(i);
     const PreparedFrame frame(scene, hardware.formats, policy);
-    clock_ns = hardware.technology.clock(frame.setup.configuration).ns;
+    datapath = frame.setup.configuration;
+    clock_ns = hardware.technology.clock(datapath).ns;
     const std::uint32_t material = frame.geometry().triangles.front().material;
     const double cycles = times.of(frame.setup.material(0, material).plan).cycles;
     add(fmt::format("setup_engine, {}", series_fit_names()[i]),
@@ -208,8 +210,16 @@ Curve block_curve(const std::shared_ptr<const PreparedScene>& scene, const Hardw
     return clock_ns *
            (pipeline.walker_triangle_cycles + (rows - 1) * pipeline.walker_row_cycles + 1) / pixels;
   });
-  add("pixel_datapath", [&](int) { return clock_ns; });
-  add("framebuffer", [&](int) { return clock_ns * pipeline.framebuffer_write_cycles; });
+  // Groups of pixels that leave together, in rows of equal length.
+  const auto groups = [&](int pixels) -> double {
+    if (datapath.lanes() == 1) return pixels;
+    return rows_of(pixels) * std::ceil(pixels / rows_of(pixels) / datapath.lanes());
+  };
+  add("pixel_datapath",
+      [&](int pixels) { return clock_ns * datapath.interval_cycles() * groups(pixels) / pixels; });
+  add("framebuffer", [&](int pixels) {
+    return clock_ns * pipeline.framebuffer_write_cycles * groups(pixels) / pixels;
+  });
   add("budget", [&](int) { return budget_ns; });
   return curve;
 }

@@ -33,8 +33,9 @@ struct RtlPorts {
   void* user;
 
   std::uint8_t span_ready, pixel_valid;
-  std::uint16_t pixel_x, pixel_y;
-  std::uint32_t pixel_color;
+  std::uint16_t pixel_x, pixel_y;  // of the first of the pixels side by side
+  std::uint8_t pixels;             // that are valid: of a wide datapath, 1 to 4
+  std::uint32_t pixel_color[4];
 };
 
 struct RtlPixel {

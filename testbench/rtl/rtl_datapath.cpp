@@ -72,7 +72,13 @@ DatapathOutputs RtlDatapath::clock(const DatapathInputs& inputs) {
   DatapathOutputs outputs;
   outputs.span_ready = ports_.span_ready != 0;
   outputs.pixel_valid = ports_.pixel_valid != 0;
-  outputs.pixel = {ports_.pixel_x, ports_.pixel_y, ports_.pixel_color};
+  outputs.pixel = {ports_.pixel_x, ports_.pixel_y, ports_.pixel_color[0]};
+  if (!outputs.pixel_valid) return outputs;
+  outputs.others = ports_.pixels - 1;
+  for (int k = 1; k <= outputs.others; ++k) {
+    outputs.other[static_cast<std::size_t>(k) - 1] = {
+        static_cast<std::uint16_t>(ports_.pixel_x + k), ports_.pixel_y, ports_.pixel_color[k]};
+  }
   return outputs;
 }
 

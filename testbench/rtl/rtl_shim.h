@@ -54,6 +54,12 @@ constexpr bool kReadsDigits = false;
 template <typename Top>
 constexpr bool kReadsDigits<Top, std::void_t<decltype(std::declval<Top&>().span_digit)>> = true;
 
+// Pixels side by side that a datapath delivers.
+template <typename Parameters, typename = void>
+constexpr int kLanes = 1;
+template <typename Parameters>
+constexpr int kLanes<Parameters, std::void_t<decltype(Parameters::LANES)>> = Parameters::LANES;
+
 // `Top`: the Verilated module. `Parameters`: a struct with its parameters as constants of the same
 // names.
 template <typename Top, typename Parameters>
@@ -92,11 +98,16 @@ class Rtl {
     top_.clk = 0;
     top_.eval();
     ports.span_ready = top_.span_ready;
-    ports.pixel_valid = top_.pixel_valid;
-    if (top_.pixel_valid) {
+    ports.pixel_valid = top_.pixel_valid & 1;
+    if (ports.pixel_valid) {
       ports.pixel_x = top_.pixel_x;
       ports.pixel_y = top_.pixel_y;
-      ports.pixel_color = top_.pixel_color;
+      ports.pixels = 0;
+      for (int k = 0; k < kLanes<Parameters>; ++k) {
+        ports.pixel_color[k] = color_of_lane(k);
+        // A hole between valid pixels is taken for one more, so that it is found.
+        if ((top_.pixel_valid >> k & 1) != 0) ports.pixels = static_cast<std::uint8_t>(k + 1);
+      }
     }
     if (top_.span_ready) presented_ = nullptr;  // the next span may stand at the same address
     if constexpr (kReadsDigits<Top>) {
@@ -125,8 +136,10 @@ class Rtl {
       ++idle;
       if (ports.pixel_valid) {
         idle = 0;
-        *pixels++ = {ports.pixel_x, ports.pixel_y, ports.pixel_color};
-        --left;
+        for (int k = 0; k < ports.pixels && left > 0; ++k, --left) {
+          *pixels++ = {static_cast<std::uint16_t>(ports.pixel_x + k), ports.pixel_y,
+                       ports.pixel_color[k]};
+        }
       }
     }
     return clocks;
@@ -169,6 +182,22 @@ class Rtl {
     return name;
   }
 #endif
+  std::uint32_t color_of_lane(int lane) const {
+    constexpr int kBits = kChannels * kOutputBits;
+    if constexpr (std::is_integral_v<std::remove_reference_t<decltype(top_.pixel_color)>>) {
+      constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
+      return static_cast<std::uint32_t>(std::uint64_t{top_.pixel_color} >> (lane * kBits) & kMask);
+    } else {  // words of 32 bits; a channel is in one of them
+      std::uint32_t color = 0;
+      for (int bit = 0; bit < kBits; bit += kOutputBits) {
+        const int at = lane * kBits + bit;
+        const std::uint32_t channel =
+            top_.pixel_color[at / 32] >> (at % 32) & ((1 << kOutputBits) - 1);
+        color |= channel << bit;
+      }
+      return color;
+    }
+  }
   void edge() {
     top_.clk = 1;
     top_.eval();

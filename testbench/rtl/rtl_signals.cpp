@@ -67,6 +67,16 @@ std::vector<const RtlSignalView*> rom_memories(const RtlSignals& signals) {
       if (signal.name == name) memories.push_back(&signal);
     }
   }
+  // Lane after lane of a wide datapath.
+  const auto datapath_of = [](const RtlSignalView* memory) {
+    const std::string_view scope = memory->scope;
+    const std::size_t lane = scope.find(".lane[");
+    return lane == scope.npos ? std::string_view() : scope.substr(0, scope.find(']', lane));
+  };
+  std::stable_sort(memories.begin(), memories.end(),
+                   [&](const RtlSignalView* a, const RtlSignalView* b) {
+                     return datapath_of(a) < datapath_of(b);
+                   });
   return memories;
 }
 

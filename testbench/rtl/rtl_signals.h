@@ -46,7 +46,8 @@ class RtlSignals {
   std::vector<RtlSignalView> all_;
 };
 
-// The memories of exponent_rom, in the order in which words are written to them.
+// The memories of exponent_rom, in the order in which words are written to them; of a wide
+// datapath, those of one lane after the other, which get the same words.
 std::vector<const RtlSignalView*> rom_memories(const RtlSignals& signals);
 
 // A register of the datapath in RTL.

@@ -23,13 +23,20 @@ Eigen::VectorXd without(const Eigen::VectorXd& all, Eigen::Index left_out) {
 
 }  // namespace
 
-std::vector<std::string_view> area_features() {
+std::vector<std::string_view> area_features(std::string_view module) {
+  if (module == "pixel_datapath_wide") {
+    return {"constant", "lanes", "series_bits", "word_bits", "octave_address_bits"};
+  }
+  if (module == "pixel_datapath_serial") {
+    return {"constant", "channels", "word_bits", "octave_address_bits", "depth_cue_channels"};
+  }
   std::vector<std::string_view> names;
   for (const auto& [name, value] : synthesis_features({})) names.push_back(name);
   return names;
 }
 
-std::vector<std::string_view> clock_features() {
+std::vector<std::string_view> clock_features(std::string_view module) {
+  if (module != "pixel_datapath") return {"constant", "series_bits", "depth_cue_channels"};
   return {"constant", "channels", "longest_low_carry_bits", "depth_cue", "depth_cue_channels"};
 }
 
@@ -58,7 +65,7 @@ FittedModel fit_model(const std::vector<DatapathConfiguration>& configurations,
   }
   const Eigen::VectorXd coefficients = solve(features, known);
   Eigen::Index column = 0;
-  for (const std::string_view name : area_features()) {
+  for (const auto& [name, value] : synthesis_features({})) {
     model.coefficients.push_back(is_used(name) ? coefficients(column++) : 0);
   }
   return model;

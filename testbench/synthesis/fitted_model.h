@@ -15,8 +15,9 @@ FittedModel fit_model(const std::vector<DatapathConfiguration>& configurations,
                       const std::vector<double>& values,
                       const std::vector<std::string_view>& features);
 
-// All of them, for areas. A clock is that of one path, and depends on less.
-std::vector<std::string_view> area_features();
-std::vector<std::string_view> clock_features();
+// Those for areas, which are all for pixel_datapath, of which most designs are known. A clock is
+// that of one path, and depends on less.
+std::vector<std::string_view> area_features(std::string_view module);
+std::vector<std::string_view> clock_features(std::string_view module);
 
 }  // namespace phongpipe

@@ -22,18 +22,16 @@ namespace fs = std::filesystem;
 
 using Port = SynthesisTarget::Port;
 
-std::vector<Port> inputs_of(const DatapathConfiguration& c) {
+// The words of a span, or the digits of them.
+std::vector<Port> span_words_of(const DatapathConfiguration& c) {
+  if (c.kind == DatapathKind::serial) {
+    return {{"span_v", kDigitBits},
+            {"span_d1", kDigitBits},
+            {"span_d2", kDigitBits},
+            {"span_level", kDigitBits}};
+  }
   const int diffuse = c.diffuse_width(), specular = c.specular_width(), channels = c.channels;
-  return {{"reset", 1},
-          {"span_valid", 1},
-          {"span_x", kCoordinateBits},
-          {"span_y", kCoordinateBits},
-          {"span_length", kLengthBits},
-          {"span_first_pass", 1},
-          {"span_step_diffuse", 1},
-          {"span_step_specular", 1},
-          {"span_highlight", 1},
-          {"span_diffuse_v", channels * diffuse},
+  return {{"span_diffuse_v", channels * diffuse},
           {"span_diffuse_d1", channels * diffuse},
           {"span_diffuse_d2", channels * diffuse},
           {"span_level", channels * diffuse},
@@ -44,20 +42,40 @@ std::vector<Port> inputs_of(const DatapathConfiguration& c) {
           {"span_gate_d1", diffuse},
           {"span_gate_d2", diffuse},
           {"span_cue_v", kCueWidth},
-          {"span_cue_d1", kCueWidth},
-          {"cue_color", channels * kOutputBits},
-          {"rom_write", 1},
-          {"rom_address", c.rom_address_bits},
-          {"rom_data", channels * c.rom_data_bits},
-          {"pixel_ready", 1}};
+          {"span_cue_d1", kCueWidth}};
+}
+
+std::vector<Port> inputs_of(const DatapathConfiguration& c) {
+  std::vector<Port> ports = {{"reset", 1},
+                             {"span_valid", 1},
+                             {"span_x", kCoordinateBits},
+                             {"span_y", kCoordinateBits},
+                             {"span_length", kLengthBits},
+                             {"span_first_pass", 1},
+                             {"span_step_diffuse", 1},
+                             {"span_step_specular", 1},
+                             {"span_highlight", 1},
+                             {"cue_color", c.channels * kOutputBits},
+                             {"rom_write", 1},
+                             {"rom_address", c.rom_address_bits},
+                             {"rom_data", c.channels * c.rom_data_bits},
+                             {"pixel_ready", 1}};
+  const std::vector<Port> words = span_words_of(c);
+  ports.insert(ports.end(), words.begin(), words.end());
+  return ports;
 }
 
 std::vector<Port> outputs_of(const DatapathConfiguration& c) {
-  return {{"span_ready", 1},
-          {"pixel_valid", 1},
-          {"pixel_x", kCoordinateBits},
-          {"pixel_y", kCoordinateBits},
-          {"pixel_color", c.channels * kOutputBits}};
+  std::vector<Port> ports = {{"span_ready", 1},
+                             {"pixel_valid", c.lanes()},
+                             {"pixel_x", kCoordinateBits},
+                             {"pixel_y", kCoordinateBits},
+                             {"pixel_color", c.lanes() * c.channels * kOutputBits}};
+  if (c.kind == DatapathKind::serial) {
+    ports.push_back({"span_series", kSeriesBits});
+    ports.push_back({"span_digit", kDigitPlaceBits});
+  }
+  return ports;
 }
 
 // All ports between registers: a chain that fills the inputs from a pin, and one that empties the
@@ -95,7 +113,8 @@ void run_tool(const std::vector<std::string>& command, const ToolFolder& tools) 
   static const std::regex error("ERROR: ([^\n]*)");
   std::string message = "it failed without a message";
   if (std::regex_search(output.text, line, error)) message = line[1];
-  if (message.find("no BELs remaining") != std::string::npos) {
+  const auto says = [&message](const char* part) { return message.find(part) != message.npos; };
+  if (says("no BELs remaining") || says("Failed to expand region")) {
     throw InputError(
         fmt::format("the design is too large for the device: reduce widths, tables or channels, or "
                     "choose another card; {} said: {}",
@@ -135,15 +154,20 @@ Placement read_report(const fs::path& file,
 }  // namespace
 
 SynthesisTarget datapath_target(const DatapathConfiguration& configuration) {
-  return {"pixel_datapath",
+  return {std::string(rtl_module(configuration)),
           rtl_parameters(configuration),
           inputs_of(configuration),
           outputs_of(configuration),
-          {{"_series.", "forward_differencer"},
+          {{"_lanes.", "series_lanes"},
+           {"differencer.", "serial_differencer"},
+           {".level.", "digit_register"},
+           {"_series.",
+            configuration.kind == DatapathKind::serial ? "digit_register" : "forward_differencer"},
            {".rom.", "exponent_rom"},
            {".summation.", "color_sum"},
            {".multiplier.", "depth_cue"},
-           {".queue.", "pixel_queue"}}};
+           {".queue.", "pixel_queue"}},
+          rtl_parameters_text(configuration)};
 }
 
 Netlist::Netlist(const SynthesisTarget& target, const fs::path& sources)
@@ -166,7 +190,7 @@ Netlist::Netlist(const SynthesisTarget& target, const fs::path& sources)
                         files, ToolFolder::kSources, sets, target.module)},
            tools_);
   const auto area = nlohmann::json::parse(read_whole_file(tools_.path() / "area.json"));
-  area_.parameters = parameters_text(target.parameters);
+  area_.parameters = target.name.empty() ? parameters_text(target.parameters) : target.name;
   for (const auto& [cell, count] : area.at("design").at("num_cells_by_type").items()) {
     if (cell == "SB_LUT4") area_.luts += count.get<int>();
     if (cell == "SB_CARRY") area_.carries += count.get<int>();

@@ -26,6 +26,8 @@ struct SynthesisTarget {
   std::vector<Port> inputs, outputs;
   // Blocks by a part of the names that their cells have in the flattened netlist.
   std::vector<std::pair<std::string, std::string>> blocks;
+  // Of the design in a card, MeasuredDesign::parameters; empty: as parameters_text() has them.
+  std::string name = {};
 };
 SynthesisTarget datapath_target(const DatapathConfiguration& configuration);
 

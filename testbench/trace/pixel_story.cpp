@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "model/files/text_file.h"
 #include "model/fixed/depth_cue.h"
 #include "model/scene/input_error.h"
 #include "model/scene/tool_error.h"
@@ -39,18 +40,27 @@ SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
   const std::vector<DatapathSignal> signals = datapath_signals(configuration);
   inputs.pixel_ready = true;
   inputs.span = &span;
-  const int entrance = story.step * configuration.interval_cycles();
+  // Of a wide datapath, the lane and its pixel.
+  const int lanes = configuration.lanes(), lane = story.step % lanes, step = story.step / lanes;
+  const auto in_lane = [&](const DatapathSignal& signal) {
+    return lanes == 1 || starts_with(signal.scope, lane_scope(lane));
+  };
+  const int start = lanes == 1 ? 0 : kLaneStages;
+  const int entrance = start + step * configuration.interval_cycles();
   const auto has_start = [&](int stage) {
     return configuration.kind == DatapathKind::serial ? stage <= kWholeStage : stage == 1;
   };
   for (int clock = 0; clock < entrance + configuration.latency_cycles(); ++clock) {
     registers.clock(inputs);
     inputs.span = nullptr;
-    if (clock == entrance) story.pixel = registers.in_stage(0);
+    if (clock == entrance) {
+      const auto own = static_cast<std::size_t>(lane);
+      story.pixel = (lanes == 1 ? registers : registers.lane(own)).in_stage(0);
+    }
     for (const DatapathSignal& signal : signals) {
       const int entered = clock - static_cast<int>(registers.clocks_to(signal.stage));
-      if (signal.always || (signal.only_first && entered != 0)) continue;
-      if (entered == 0 && has_start(signal.stage))
+      if (signal.always || (signal.only_first && entered != start) || !in_lane(signal)) continue;
+      if (entered == start && has_start(signal.stage))
         story.start.push_back({signal, signal.value(registers)});
       if (entered == entrance) story.registers.push_back({signal, signal.value(registers)});
     }

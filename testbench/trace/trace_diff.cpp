@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <deque>
 #include <map>
 
+#include "model/files/text_file.h"
 #include "model/scene/input_error.h"
 #include "sim/datapath_registers.h"
 #include "testbench/system/terminal.h"
@@ -17,8 +19,17 @@ namespace {
 
 constexpr std::string_view kDatapath = "pixel_datapath";
 
+// Of a lane of a wide datapath, too.
+std::string without_lane(const std::string& name) {
+  const std::string lane = fmt::format("{}.lane[", kDatapath);
+  const std::size_t end = name.find("].datapath.");
+  if (!starts_with(name, lane) || end == std::string::npos) return name;
+  return fmt::format("{}.{}", kDatapath, name.substr(end + std::strlen("].datapath.")));
+}
+
 // Names of registers by their full name, with the stage that they belong to: those of the tables of
-// signals for datapaths with everything, and those that they are packed in.
+// signals for datapaths with everything, and those that they are packed in. Of a wide datapath,
+// without the lane.
 const std::map<std::string, int>& stages_of_signals() {
   static const std::map<std::string, int> all = [] {
     std::map<std::string, int> stages;
@@ -41,7 +52,7 @@ const std::map<std::string, int>& stages_of_signals() {
         }
       }
     };
-    for (const DatapathKind kind : kDatapathKinds) {
+    for (const DatapathKind kind : {DatapathKind::pipelined, DatapathKind::serial}) {
       for (const int channels : {1, 3}) {
         for (const auto& [layout, address_bits] : kTables) {
           everything.kind = kind;
@@ -59,9 +70,21 @@ const std::map<std::string, int>& stages_of_signals() {
 
 // Ports that show a pixel when it leaves, in the place of a stage behind the last one.
 constexpr int kOutputStage = kMostStages;
-constexpr std::array<std::string_view, 3> kOutputs = {"pixel_x", "pixel_y", "pixel_color"};
+constexpr std::array<std::string_view, 4> kOutputs = {"pixel_valid", "pixel_x", "pixel_y",
+                                                      "pixel_color"};
 
-// What a trace shows of one pixel.
+// The stage that a signal belongs to, by its full name; none if it is not one of a pixel.
+std::optional<int> stage_of(const std::string& name) {
+  const std::string known = without_lane(name);
+  const auto found = stages_of_signals().find(known);
+  if (found != stages_of_signals().end()) return found->second;
+  for (const std::string_view output : kOutputs) {
+    if (known == fmt::format("{}.{}", kDatapath, output)) return kOutputStage;
+  }
+  return std::nullopt;
+}
+
+// What a trace shows of one pixel, or of those that a wide datapath takes together.
 struct TracedPixel {
   int x = 0, y = 0;
   // When each stage took it; 0: it was not seen there.
@@ -78,21 +101,25 @@ class Follower {
   const std::string& scope() const { return scope_; }
   void add(const std::string& name, std::size_t variable, int width) {
     variables_[name] = variable;
+    // What follows pixels is in the first lane, for all are in step.
+    const std::string first_lane = fmt::format("{}.{}", kDatapath, lane_scope(0));
+    const bool in_first_lane = starts_with(name, first_lane + ".");
+    if (in_first_lane) control_ = first_lane;
+    while (starts_with(name, fmt::format("{}.{}.", kDatapath, lane_scope(lanes_)))) ++lanes_;
+    const std::string own = in_first_lane ? without_lane(name) : name;
     for (int stage = 0; stage < kMostStages; ++stage) {
-      if (name == fmt::format("{}.s{}_valid", kDatapath, stage)) valid_[index(stage)] = variable;
+      if (own == fmt::format("{}.s{}_valid", kDatapath, stage)) valid_[index(stage)] = variable;
     }
-    if (name == fmt::format("{}.valid", kDatapath)) valid_width_ = width;
-    if (name == fmt::format("{}.s0_x", kDatapath)) serial_ = true;
-    for (const std::string_view output : kOutputs) {
-      if (name == fmt::format("{}.{}", kDatapath, output)) {
-        registers_[kOutputStage].push_back({name, variable, width});
-      }
-    }
-    const auto known = stages_of_signals().find(name);
-    if (known == stages_of_signals().end()) return;
-    registers_[index(known->second)].push_back({name, variable, width});
+    if (own == fmt::format("{}.valid", kDatapath)) valid_width_ = width;
+    if (own == fmt::format("{}.s0_x", kDatapath)) serial_ = true;
+    const std::optional<int> stage = stage_of(name);
+    if (stage) registers_[index(*stage)].push_back({name, variable, width});
   }
   const std::map<std::string, std::size_t>& variables() const { return variables_; }
+  int lanes() const { return std::max(1, lanes_); }
+  std::string kind() const {
+    return serial_ ? "serial" : lanes() > 1 ? fmt::format("wide{}", lanes_) : "pipelined";
+  }
   const std::vector<TracedPixel>& pixels() const { return pixels_; }
   bool is_clock(std::size_t variable) const {
     const auto found = variables_.find(fmt::format("{}.clk", kDatapath));
@@ -174,12 +201,14 @@ class Follower {
     if (const auto& own = valid_[index(stage)]) return values[*own] == "1";
     const int of_word = bit_of_word(stage);
     if (of_word < 0 || of_word >= valid_width_) return false;
-    const int all = number(values, fmt::format("{}.valid", kDatapath), valid_width_);
+    const int all = number(values, control_ + ".valid", valid_width_);
     return (all >> of_word & 1) != 0;
   }
   bool bit(const std::vector<std::string>& values, const std::string& name) const {
     const auto found = variables_.find(name);
-    return found != variables_.end() && values[found->second] == "1";
+    if (found == variables_.end()) return false;
+    const std::string& bits = values[found->second];
+    return !bits.empty() && bits.back() == '1';  // of the first lane
   }
   int number(const std::vector<std::string>& values, const std::string& name, int width) const {
     const auto found = variables_.find(name);
@@ -192,7 +221,7 @@ class Follower {
   // Pixels that entered before the record began and have not left.
   int pixels_inside(const std::vector<std::string>& values) const {
     constexpr int kBits = kPixelQueueBits + 1;
-    const int minus_colors = number(values, fmt::format("{}.queue.minus_colors", kDatapath), kBits);
+    const int minus_colors = number(values, control_ + ".queue.minus_colors", kBits);
     int pixels = ((1 << kBits) - minus_colors) % (1 << kBits);
     pixels += bit(values, fmt::format("{}.pixel_valid", kDatapath)) ? 1 : 0;
     for (int stage = 1; stage < kMostStages; ++stage) {
@@ -203,8 +232,8 @@ class Follower {
   // Takes the signals that a stage has of the pixel.
   void look(int stage, TracedPixel& pixel, const std::vector<std::string>& values) {
     if (stage == place_stage()) {
-      pixel.x = number(values, fmt::format("{}.s{}_x", kDatapath, stage), kCoordinateBits);
-      pixel.y = number(values, fmt::format("{}.s{}_y", kDatapath, stage), kCoordinateBits);
+      pixel.x = number(values, fmt::format("{}.s{}_x", control_, stage), kCoordinateBits);
+      pixel.y = number(values, fmt::format("{}.s{}_y", control_, stage), kCoordinateBits);
     }
     pixel.ps[index(stage)] = since_ps_;
     for (const auto& [name, variable, width] : registers_[index(stage)]) {
@@ -220,6 +249,7 @@ class Follower {
   }
 
   std::string scope_;
+  std::string control_ = std::string(kDatapath);  // where what follows pixels is
   std::map<std::string, std::size_t> variables_;  // by full name
   struct Register {
     std::string name;
@@ -228,6 +258,7 @@ class Follower {
   };
   std::array<std::vector<Register>, kMostStages + 1> registers_;  // by the stage they belong to
   std::array<std::optional<std::size_t>, kMostStages> held_{};
+  int lanes_ = 0;  // of a wide datapath
   bool serial_ = false;
   // Of the serial datapath: pixels whose digits are read.
   std::deque<std::size_t> entered_;
@@ -335,7 +366,14 @@ std::optional<int> least_latency(const std::vector<TracedPixel>& pixels) {
 }
 
 TraceComparison compare(const Follower& a, const Follower& b, bool same_record) {
+  if (a.kind() != b.kind()) {
+    throw InputError(fmt::format(
+        "A is of a {} datapath, B of a {} one: their registers cannot be compared; verify compares "
+        "the pixels of each with the model's",
+        a.kind(), b.kind()));
+  }
   TraceComparison result;
+  result.lanes = a.lanes();
   result.same_record = same_record;
   result.a_scope = a.scope();
   result.b_scope = b.scope();
@@ -344,16 +382,9 @@ TraceComparison compare(const Follower& a, const Follower& b, bool same_record) 
   result.a_latency_cycles = least_latency(a.pixels());
   result.b_latency_cycles = least_latency(b.pixels());
   std::vector<std::pair<int, std::string>> common;
-  for (const auto& [name, stage] : stages_of_signals()) {
-    if (a.variables().count(name) != 0 && b.variables().count(name) != 0) {
-      common.emplace_back(stage, name);
-    }
-  }
-  for (const std::string_view output : kOutputs) {
-    const std::string name = fmt::format("{}.{}", kDatapath, output);
-    if (a.variables().count(name) != 0 && b.variables().count(name) != 0) {
-      common.emplace_back(kOutputStage, name);
-    }
+  for (const auto& [name, variable] : a.variables()) {
+    const std::optional<int> stage = stage_of(name);
+    if (stage && b.variables().count(name) != 0) common.emplace_back(*stage, name);
   }
   std::stable_sort(common.begin(), common.end(),
                    [](const auto& x, const auto& y) { return x.first < y.first; });

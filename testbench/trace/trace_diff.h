@@ -24,6 +24,7 @@ struct TraceDifference {
 struct TraceComparison {
   std::string a_scope, b_scope;  // "phongpipe.rtl"
   bool same_record = false;      // both in one file: then each has the pixels that the other has
+  int lanes = 1;                 // of a wide datapath, whose groups of pixels are counted as pixels
   std::uint64_t a_pixels = 0, b_pixels = 0;               // in each trace
   std::uint64_t compared = 0;                             // pixels that both have
   std::size_t signals = 0;                                // that both have

@@ -131,12 +131,22 @@ class Probes {
     add_word(scope, "rom_write", 1, 0, [this] { return clock_.inputs.table != nullptr; });
     add_word(scope, "rom_address", configuration_.rom_address_bits, 0,
              [this] { return clock_.inputs.rom_address; });
-    add_word(scope, "pixel_valid", 1, 0, [this] { return clock_.outputs.pixel_valid; });
+    const int lanes = configuration_.lanes();
+    add_word(scope, "pixel_valid", lanes, 0, [this] { return clock_.outputs.valid_bits(); });
     add_word(scope, "pixel_ready", 1, 0, [this] { return clock_.inputs.pixel_ready; });
     add_word(scope, "pixel_x", kCoordinateBits, 0, [this] { return clock_.outputs.pixel.x; });
     add_word(scope, "pixel_y", kCoordinateBits, 0, [this] { return clock_.outputs.pixel.y; });
-    add_word(scope, "pixel_color", configuration_.channels * kOutputBits, 0,
-             [this] { return clock_.outputs.pixel.color; });
+    const int color_bits = configuration_.channels * kOutputBits;
+    if (lanes == 1) {
+      add_word(scope, "pixel_color", color_bits, 0, [this] { return clock_.outputs.pixel.color; });
+      return;
+    }
+    for (int k = 0; k < lanes; ++k) {
+      const DatapathRegisters& lane = systemc_.lane(static_cast<std::size_t>(k));
+      const std::string own = fmt::format("{}.{}", scope, lane_scope(k));
+      add_word(own, "pixel_valid", 1, 0, [&lane] { return lane.outputs().pixel_valid; });
+      add_word(own, "pixel_color", color_bits, 0, [&lane] { return lane.outputs().pixel.color; });
+    }
   }
 
   void add_pipeline() {
@@ -322,14 +332,20 @@ class TracedDatapath : public ClockedDatapath {
   }
   void mark() {
     const DatapathPixel& entered = systemc_.in_stage(0);
-    const bool inside = entered.valid && is_target(entered.x, entered.y);
-    if (inside && !entering_) {
-      markers_.push_back({fmt::format("enters {},{}", entered.x, entered.y), clock_.cycle});
+    bool inside = false;
+    for (int x = entered.x; entered.valid && x < entered.x + systemc_.pixels_in(0); ++x) {
+      if (!is_target(x, entered.y)) continue;
+      inside = true;
+      if (!entering_) {
+        markers_.push_back({fmt::format("enters {},{}", x, entered.y), clock_.cycle});
+      }
     }
     entering_ = inside;
-    const auto& [ready, valid, pixel] = clock_.outputs;
-    if (valid && clock_.inputs.pixel_ready && is_target(pixel.x, pixel.y)) {
-      markers_.push_back({fmt::format("leaves {},{}", pixel.x, pixel.y), clock_.cycle});
+    const DatapathOutputs& outputs = clock_.outputs;
+    if (!outputs.pixel_valid || !clock_.inputs.pixel_ready) return;
+    for (int k = 0; k < outputs.pixels(); ++k) {
+      if (!is_target(outputs[k].x, outputs[k].y)) continue;
+      markers_.push_back({fmt::format("leaves {},{}", outputs[k].x, outputs[k].y), clock_.cycle});
     }
   }
 

@@ -16,14 +16,15 @@ class TraceProgram : public Program {
     constexpr const char* kCorrect = "highlight[2], s1_highlight";
     return faulty_rtl(kCorrect, std::string(kCorrect) + " ^ (s1_x == 100 && s1_y == 120)");
   }
-  std::string faulty_rtl(const std::string& correct, const std::string& broken) {
+  std::string faulty_rtl(const std::string& correct, const std::string& broken,
+                         const std::string& module = "pixel_datapath.sv") {
     fs::create_directories(folder_ / "rtl");
     for (const auto& entry : fs::directory_iterator(PHONGPIPE_HARDWARE)) {
       if (entry.is_regular_file()) fs::copy(entry.path(), folder_ / "rtl");
     }
-    std::string text = read_whole_file(file("rtl/pixel_datapath.sv"));
+    std::string text = read_whole_file(file("rtl/" + module));
     text.replace(text.find(correct), correct.size(), broken);
-    write("rtl/pixel_datapath.sv", text);
+    write("rtl/" + module, text);
     setenv("XDG_CACHE_HOME", file("cache").c_str(), 1);
     return file("rtl");
   }
@@ -108,6 +109,30 @@ TEST_F(TraceProgram, AFaultAtTheOutputIsDifferent) {
   const ProcessOutput diff = run({"diff-traces", file("out/sphere.fst"), file("out/sphere.fst")});
   EXPECT_EQ(diff.status, 1) << diff.text;
   EXPECT_NE(diff.text.find("pixel_datapath.pixel_x of the pixel"), std::string::npos) << diff.text;
+}
+
+// A lane whose pixels do not count, though all its registers are right.
+TEST_F(TraceProgram, AMissingLaneIsDifferent) {
+  const std::string rtl = faulty_rtl("lane_x[(k+1)*X_BITS-1];", "lane_x[(k+1)*X_BITS-1] && k != 1;",
+                                     "pixel_datapath_wide.sv");
+  const ProcessOutput output =
+      run({"verify", "sphere", "--set", "datapath.kind=wide2", "--rtl", rtl, "--out", file("out")});
+  EXPECT_EQ(output.status, 1) << output.text;
+  EXPECT_NE(output.text.find("pixel_datapath.pixel_valid: model 0x3, rtl 0x1"), std::string::npos)
+      << output.text;
+  const ProcessOutput diff = run({"diff-traces", file("out/sphere.fst"), file("out/sphere.fst")});
+  EXPECT_EQ(diff.status, 1) << diff.text;
+  EXPECT_NE(diff.text.find("pixel_datapath.pixel_valid of the pixel"), std::string::npos)
+      << diff.text;
+}
+
+TEST_F(TraceProgram, KindsOfDatapathsAreNotCompared) {
+  ASSERT_EQ(run({"trace", "sphere", "--worst", "-o", file("a.fst")}).status, 0);
+  ASSERT_EQ(run({"trace", "sphere", "--worst", "--set", "datapath.kind=wide2", "-o", file("b.fst")})
+                .status,
+            0);
+  expect_refused({"diff-traces", file("a.fst"), file("b.fst")},
+                 "A is of a pipelined datapath, B of a wide2 one");
 }
 
 // The library that reads FST files trusts them; it crashes, loops and ends the process.

@@ -204,6 +204,15 @@ TEST_F(InSerial, AreNamedWhereTheyWerePlanted) {
   plant_everywhere();
 }
 
+class InWide : public PlantedFaults {
+ protected:
+  InWide() : PlantedFaults("sphere", kSmall, "default", {"datapath.kind=wide2"}) {}
+};
+TEST_F(InWide, AreNamedWhereTheyWerePlanted) {
+  ASSERT_EQ(frame_.setup.configuration.lanes(), 2);
+  plant_everywhere();
+}
+
 // With three channels, a separate gate series and depth cueing.
 class InColor : public PlantedFaults {
  protected:

@@ -117,7 +117,7 @@ TEST(Technology, OtherConfigurationsAreFittedWithinAStatedError) {
     c.diffuse_fraction_bits = 17;
     const ClockFigure clock = card.clock(c);
     EXPECT_EQ(clock.kind, FigureKind::fitted);
-    EXPECT_EQ(clock.relative_error, card.clock_model.relative_error);
+    EXPECT_EQ(clock.relative_error, card.fitted.at("pixel_datapath").clock_ns.relative_error);
     EXPECT_EQ(kind_text(clock).rfind("fitted ± ", 0), 0U) << kind_text(clock);
     EXPECT_NEAR(clock.ns / card.clock(of_preset("paper-1k")).ns, 1, 0.3);
     const auto area = card.area(c);

@@ -33,7 +33,7 @@ TEST(FittedModel, FindsALinearRule) {
   for (const DatapathConfiguration& c : configurations) {
     values.push_back(50 + 3 * c.channels * c.diffuse_width() + 2 * c.specular_width());
   }
-  const FittedModel model = fit_model(configurations, values, area_features());
+  const FittedModel model = fit_model(configurations, values, area_features("pixel_datapath"));
   EXPECT_LT(model.relative_error, 1e-6);
   DatapathConfiguration other;
   other.diffuse_fraction_bits = 19;
@@ -46,7 +46,7 @@ TEST(FittedModel, StatesTheErrorOfAnOutlier) {
   const auto configurations = some_configurations();
   std::vector<double> values(configurations.size(), 100);
   values[7] = 150;
-  EXPECT_GT(fit_model(configurations, values, area_features()).relative_error, 0.3);
+  EXPECT_GT(fit_model(configurations, values, area_features("pixel_datapath")).relative_error, 0.3);
 }
 
 TEST(PlaceAndRoute, SaysWhatToInstallWithoutTheTools) {

@@ -165,8 +165,8 @@ TEST(Curves, BlocksOfThePipeline) {
   const Curve curve = block_curve(scene, hardware, 100);
   const double clock_ns = at(curve, "pixel_datapath", 1);
   EXPECT_GT(clock_ns, 1);
-  EXPECT_EQ(at(curve, "pixel_datapath", 10000), clock_ns);
-  EXPECT_EQ(at(curve, "framebuffer", 100), 3 * clock_ns);
+  EXPECT_DOUBLE_EQ(at(curve, "pixel_datapath", 10000), clock_ns);
+  EXPECT_DOUBLE_EQ(at(curve, "framebuffer", 100), 3 * clock_ns);
   EXPECT_EQ(at(curve, "budget", 7), 100);
   const double taylor = at(curve, "setup_engine, taylor", 1);
   EXPECT_NEAR(at(curve, "setup_engine, taylor", 1000), taylor / 1000, 1e-9);

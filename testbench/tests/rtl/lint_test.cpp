@@ -143,6 +143,9 @@ TEST(Lint, AnIllegalParameterNamesItself) {
   top = "pixel_datapath_serial";
   expect_named({{"CHANNELS", 2}}, "CHANNELS_must_be_1_or_3");
   expect_named({{"ROM_DATA_BITS", 13}}, "ROM_DATA_BITS_must_be_4_to_12");
+  top = "pixel_datapath_wide";
+  expect_named({{"LANES", 3}}, "LANES_must_be_2_or_4");
+  expect_named({{"ROM_DATA_BITS", 13}}, "ROM_DATA_BITS_must_be_4_to_12");
   expect_named({{"DIFFUSE", 0}, {"SPECULAR", 1}, {"GATE", 1}}, "GATE_diffuse_needs_DIFFUSE");
 }
 

@@ -24,6 +24,7 @@ void expect_same(const Trace& by_span, const Trace& by_clock) {
   EXPECT_EQ(by_span.counts.setup_cycles, by_clock.counts.setup_cycles);
   EXPECT_EQ(by_span.counts.walker_cycles, by_clock.counts.walker_cycles);
   EXPECT_EQ(by_span.counts.framebuffer_cycles, by_clock.counts.framebuffer_cycles);
+  EXPECT_EQ(by_span.counts.pixel_groups, by_clock.counts.pixel_groups);
   EXPECT_EQ(by_span.counts.rom_load_cycles, by_clock.counts.rom_load_cycles);
   EXPECT_EQ(by_span.counts.datapath_cycles, by_clock.counts.datapath_cycles);
   EXPECT_EQ(by_span.counts.frame_cycles, by_clock.counts.frame_cycles);
@@ -92,11 +93,15 @@ TEST(Pipeline, BySpanIsByCycleForAnyConfiguration) {
     const Geometry geometry = random_geometry(random, scene, triangles, random.uniform(2, 20));
     FrameConfiguration datapath;
     datapath.rom_address_bits = 6;  // short loads, so that other waits show
-    const FrameSetup frame(scene, geometry, datapath);
+    const PipelineConfiguration pipeline = random_pipeline(random);
     SimulationOptions options;
     options.stall_percent = random.integer(0, 1) * random.integer(1, 60);
     options.stall_seed = seed;
-    expect_agreement(frame, random_pipeline(random), options);
+    for (const DatapathKind kind : kDatapathKinds) {
+      SCOPED_TRACE("kind " + std::to_string(static_cast<int>(kind)));
+      datapath.kind = kind;
+      expect_agreement(FrameSetup(scene, geometry, datapath), pipeline, options);
+    }
     if (HasFailure()) return;
   }
 }

@@ -65,7 +65,8 @@ Times clock_by_clock(const DatapathConfiguration& configuration,
     inputs.pixel_ready = !full;
     const std::size_t next = times.in.size();
     if (next < arrivals.size() && arrivals[next].asked <= cycle) {
-      span.row = {0, 0, arrivals[next].length};
+      // Of a wide datapath, what is timed are the groups of pixels that leave together.
+      span.row = {0, 0, arrivals[next].length * configuration.lanes()};
       inputs.span = &span;
     }
     const DatapathOutputs outputs = datapath.clock(inputs);
@@ -113,6 +114,9 @@ TEST(PixelTiming, IsThatOfEveryClock) {
     const int depth = random.integer(1, 20);
     DatapathConfiguration datapath;
     datapath.kind = kDatapathKinds[random.below(kDatapathKinds.size())];
+    datapath.diffuse_fraction_bits = random.integer(4, 30);
+    datapath.depth_cue = random.integer(0, 1) == 0;
+    datapath.specular = random.integer(0, 1) == 0;
     expect_same_times(datapath, arrivals, depth);
     if (testing::Test::HasFailure()) FAIL() << "case " << i << ", queue of " << depth;
   }

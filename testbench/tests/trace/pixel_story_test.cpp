@@ -205,20 +205,24 @@ TEST(PixelStory, AgreesWithThePictureForRandomPixels) {
     for (const LightStory& light : story.lights) {
       if (!light.span) continue;
       std::set<int> stages;
+      // Of a wide datapath, the first lane carries the place.
+      const int lanes = story.configuration.lanes();
+      const bool has_place = light.span->step % lanes == 0;
       for (const RegisterValue& value : light.span->registers) {
         const std::string& name = value.signal.name;
         const auto ends = [&name](std::string_view end) {
           return name.size() >= end.size() && name.substr(name.size() - end.size()) == end;
         };
         stages.insert(value.signal.stage);
-        if (ends("_x")) {
+        if (ends("_x") && has_place) {
           EXPECT_EQ(value.bits, pixel.x) << name;
         }
-        if (ends("_y")) {
+        if (ends("_y") && has_place) {
           EXPECT_EQ(value.bits, pixel.y) << name;
         }
         if (name == "remaining") {
-          EXPECT_EQ(value.bits, light.span->row.length - light.span->step);
+          EXPECT_EQ(value.bits,
+                    (light.span->row.length + lanes - 1) / lanes - light.span->step / lanes);
         }
       }
       // All stages, but for three inside the multiplier of depth cueing, and 1 and 2, which the
@@ -232,7 +236,9 @@ TEST(PixelStory, AgreesWithThePictureForRandomPixels) {
         return value.signal.name == (serial ? "s0_x" : "s1_x");
       });
       ASSERT_NE(x, start.end());
-      EXPECT_EQ(x->bits, light.span->row.x);
+      if (has_place) {
+        EXPECT_EQ(x->bits, light.span->row.x);
+      }
       // A coefficient is rounded to half a unit, if the plan is whole and in double precision.
       if (!light.left_out.empty() || shaded.hardware.setup.mantissa_bits < 53) continue;
       for (const SeriesCoefficients& series : light.coefficients) {

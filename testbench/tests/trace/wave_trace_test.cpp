@@ -131,17 +131,20 @@ TEST_F(Traces, ManyWindowsAreOneFile) {
   EXPECT_TRUE(diff.same());
 }
 
-// Pixels of the serial datapath are not in every stage, and several clocks apart.
-class SerialTraces : public Traces {
+// Pixels of the serial datapath are not in every stage, and several clocks apart; those of a wide
+// one are in lanes.
+class TracesOfKinds : public Traces, public testing::WithParamInterface<const char*> {
  protected:
-  SerialTraces() : Traces({"datapath.kind=serial"}) {}
+  TracesOfKinds() : Traces({fmt::format("datapath.kind={}", GetParam())}) {}
 };
-TEST_F(SerialTraces, AreComparedWindowByWindow) {
+TEST_P(TracesOfKinds, AreComparedWindowByWindow) {
   record(whole_frame(), "whole.fst");
   const RecordedTrace trace = record(pixel(30, 31), "window.vcd");
   ASSERT_EQ(trace.markers.size(), 2U);
-  EXPECT_GE(trace.markers[1].cycle - trace.markers[0].cycle,
-            frame_.setup.configuration.latency_cycles() - 1);
+  // From the entrance into the lanes, where the datapath has some.
+  const DatapathConfiguration& datapath = frame_.setup.configuration;
+  const int latency = datapath.latency_cycles() - (datapath.lanes() > 1 ? kLaneStages : 0);
+  EXPECT_GE(trace.markers[1].cycle - trace.markers[0].cycle, latency - 1);
   for (const auto& [a, b] : {std::pair("whole.fst", "window.vcd"), {"whole.fst", "whole.fst"}}) {
     const TraceDiff diff = diff_traces(folder_ / a, folder_ / b);
     EXPECT_TRUE(diff.same()) << a << " and " << b;
@@ -149,10 +152,13 @@ TEST_F(SerialTraces, AreComparedWindowByWindow) {
       EXPECT_GT(c.compared, 2U);
       EXPECT_GT(c.signals, 20U);
       EXPECT_EQ(c.compared, c.b_pixels);
-      EXPECT_EQ(c.a_latency_cycles, frame_.setup.configuration.latency_cycles());
+      EXPECT_EQ(c.a_latency_cycles, latency);
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, TracesOfKinds, testing::Values("serial", "wide2", "wide4"),
+                         [](const auto& kind) { return std::string(kind.param); });
 
 TEST_F(Traces, TracingChangesNothing) {
   TraceOptions options;

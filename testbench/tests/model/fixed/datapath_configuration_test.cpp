@@ -121,6 +121,28 @@ TEST(DatapathConfiguration, BlocksLeftOutCostNothing) {
   EXPECT_EQ(c.rom_bits(), 3 * 8 * 1024);
 }
 
+TEST(DatapathConfiguration, KindsDifferInTimeAndSize) {
+  DatapathConfiguration c;
+  EXPECT_EQ(c.interval_cycles(), 1);
+  EXPECT_EQ(c.adders(), 5);
+  c.kind = DatapathKind::serial;
+  EXPECT_EQ(c.serial_digits(), 4) << "26 and 24 bits";
+  EXPECT_EQ(c.interval_cycles(), 2 * 4);
+  EXPECT_EQ(c.latency_cycles(), kDatapathLatency - kSerialStages + 8);
+  EXPECT_EQ(c.adders(), 3) << "v and its difference, and the sum";
+  c.diffuse_fraction_bits = c.specular_fraction_bits = 4;
+  EXPECT_EQ(c.interval_cycles(), 2 * kLeastDigits);
+  c.depth_cue = true;
+  EXPECT_EQ(c.interval_cycles(), 3 * 4) << "32 bits of depth cueing";
+  c = {};
+  c.kind = DatapathKind::wide4;
+  EXPECT_EQ(c.lanes(), 4);
+  EXPECT_EQ(c.interval_cycles(), 1);
+  EXPECT_EQ(c.latency_cycles(), kDatapathLatency + kLaneStages);
+  EXPECT_EQ(c.adders(), 4 * 5 + 2 * 11);
+  EXPECT_EQ(c.rom_bits(), 4 * 8 * 1024);
+}
+
 // The guard bits of narrow highlights leave fewer for the fraction.
 TEST(DatapathConfiguration, SeriesOfTheOctaveLayoutsEndAt40BitsToo) {
   DatapathConfiguration c;

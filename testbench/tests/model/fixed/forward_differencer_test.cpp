@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <vector>
 
 namespace phongpipe {
 namespace {
@@ -70,6 +71,26 @@ RC_GTEST_PROP(ForwardDifferencer, WithoutBendItIsAStraightLine, ()) {
   for (int i = 0; i < 100; ++i) {
     RC_ASSERT(series.v() == wrap_to(wrap_add(v, wrap_mul(d1, i)), width));
     series.step();
+  }
+}
+
+// Datapaths that take turns along a span see what one would.
+RC_GTEST_PROP(ForwardDifferencer, LanesTakeTurnsAlongASpan, ()) {
+  const int width = *rc::gen::inRange(14, 41), lanes = *rc::gen::element(2, 4);
+  const SeriesStart span = {*rc::gen::arbitrary<std::int64_t>(),
+                            *rc::gen::arbitrary<std::int64_t>(),
+                            *rc::gen::arbitrary<std::int64_t>()};
+  ForwardDifferencer one(width);
+  one.load(span);
+  std::vector<ForwardDifferencer> turns;
+  for (int lane = 0; lane < lanes; ++lane) {
+    turns.emplace_back(width);
+    turns.back().load(lane_start(span, lane, lanes));
+  }
+  for (int i = 0; i < 100; ++i, one.step()) {
+    ForwardDifferencer& lane = turns[static_cast<std::size_t>(i % lanes)];
+    RC_ASSERT(lane.v() == one.v());
+    lane.step();
   }
 }
 
