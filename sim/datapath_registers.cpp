@@ -238,14 +238,14 @@ DatapathOutputs DatapathRegisters::wide_outputs() const {
 DatapathOutputs DatapathRegisters::wide_clock(const DatapathInputs& inputs) {
   const DatapathOutputs before = wide_outputs();
   const std::optional<Span>& next = before_lanes_.back();
+  const bool taken = next && lanes_[0].outputs().span_ready;
   for (std::size_t k = 0; k < lanes_.size(); ++k) {
     DatapathInputs own = inputs;
+    own.span = nullptr;
     Span span;
-    if (next) {
+    if (taken) {
       span = span_of_lane(*next, static_cast<int>(k), static_cast<int>(lanes_.size()));
       own.span = &span;
-    } else {
-      own.span = nullptr;
     }
     lanes_[k].clock(own);
   }

@@ -24,6 +24,12 @@ namespace {
 using Pixel = DatapathPixel;
 using Series = DatapathPixel::Series;
 
+void sort_by_stage(std::vector<DatapathSignal>& signals) {
+  std::stable_sort(
+      signals.begin(), signals.end(),
+      [](const DatapathSignal& a, const DatapathSignal& b) { return a.stage < b.stage; });
+}
+
 class SignalTable {
  public:
   explicit SignalTable(const DatapathConfiguration& configuration)
@@ -38,9 +44,7 @@ class SignalTable {
     add_specular();
     for (int c = 0; c < f_.channels; ++c) add_light(c);
     if (f_.depth_cue) add_cueing();
-    std::stable_sort(
-        signals_.begin(), signals_.end(),
-        [](const DatapathSignal& a, const DatapathSignal& b) { return a.stage < b.stage; });
+    sort_by_stage(signals_);
     return std::move(signals_);
   }
 
@@ -384,9 +388,7 @@ std::vector<DatapathSignal> datapath_signals(const DatapathConfiguration& config
       all.push_back(std::move(signal));
     }
   }
-  std::stable_sort(all.begin(), all.end(), [](const DatapathSignal& a, const DatapathSignal& b) {
-    return a.stage < b.stage;
-  });
+  sort_by_stage(all);
   return all;
 }
 

@@ -57,12 +57,12 @@ class PixelDatapath : public sc_core::sc_module {
     const bool has_work = !spans_.empty() || driver_.pixels_in_flight() > 0;
     busy_ = outcome.pixel_taken ? context_.frame.configuration.interval_cycles()
                                 : std::max(0, busy_ - 1);
-    const ModuleState state = outcome.loading         ? ModuleState::loading
-                              : outcome.pixel_held    ? ModuleState::stalled
-                              : has_work && busy_ > 0 ? ModuleState::busy
-                              : outcome.pixel_taken   ? ModuleState::busy
-                              : has_work              ? ModuleState::filling
-                                                      : ModuleState::waiting;
+    const bool busy = outcome.pixel_taken || (has_work && busy_ > 0);
+    const ModuleState state = outcome.loading      ? ModuleState::loading
+                              : outcome.pixel_held ? ModuleState::stalled
+                              : busy               ? ModuleState::busy
+                              : has_work           ? ModuleState::filling
+                                                   : ModuleState::waiting;
     context_.tell(Module::pixel_datapath, state,
                   in_flight_.empty() ? 0 : in_flight_.front().triangle, spans_.size());
   }
