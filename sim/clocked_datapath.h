@@ -22,7 +22,7 @@ struct DatapathOutputs {
   ShadedPixel pixel;
   // Of a wide datapath: the pixels beside it, which leave in the same clock.
   int others = 0;
-  std::array<ShadedPixel, kMostLanes - 1> other;
+  std::array<ShadedPixel, kMostLanes - 1> other{};
 
   // Bit k: whether there is a pixel k side by side.
   int valid_bits() const { return pixel_valid ? (1 << pixels()) - 1 : 0; }
