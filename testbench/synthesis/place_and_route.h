@@ -13,7 +13,7 @@
 
 namespace phongpipe {
 
-constexpr int kPlacementSeeds = 3;
+constexpr int kPlacementSeeds = 7;
 
 // A module to synthesise. It has a port `clk` besides those named.
 struct SynthesisTarget {
