@@ -314,7 +314,7 @@ Certificates certify(const FrameSetup& frame) {
     return true;
   };
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    cover(triangles[i], frame.width, frame.height, rows);
+    frame.cover_triangle(i, rows);
     if (rows.empty()) continue;
     fits.clear();
     Certificates::Triangle& triangle = result.triangles[i];

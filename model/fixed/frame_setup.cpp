@@ -250,6 +250,16 @@ FrameSetup::FrameSetup(const Scene& scene_, const Geometry& geometry_,
   depth_scale = farthest > nearest ? steps / (farthest - nearest) : 0;
 }
 
+void FrameSetup::cover_triangle(std::uint32_t triangle, std::vector<RowSpan>& rows) const {
+  GeometryMemo::Coverage* const known = memo == nullptr ? nullptr : memo->coverage(triangle);
+  if (known == nullptr) return cover(geometry->triangles[triangle], width, height, rows);
+  rows = known->rows([&] {
+    std::vector<RowSpan> fresh;
+    cover(geometry->triangles[triangle], width, height, fresh);
+    return fresh;
+  });
+}
+
 MaterialSetup FrameSetup::set_up_material(std::uint32_t pass, const Material& material,
                                           double largest_attenuation) {
   const Light& light = scene->lights[pass];

@@ -88,6 +88,9 @@ struct FrameSetup {
   FrameSetup(const Scene& scene, const Geometry& geometry, const FrameConfiguration& configuration,
              Effects effects = Effects::derived, GeometryMemo* memo = nullptr);
 
+  // The rows that a triangle covers, see cover(); `rows` is overwritten.
+  void cover_triangle(std::uint32_t triangle, std::vector<RowSpan>& rows) const;
+
   bool takes_exact_path(std::uint32_t triangle) const {
     return certificates && certificates->triangles[triangle].exact;
   }

@@ -36,7 +36,7 @@ class FrontEnd {
     if (pass > 0 && !adds(frame_->material(pass, source.material).plan)) {
       return SetupOutcome::nothing;
     }
-    cover(source, frame_->width, frame_->height, work.rows);
+    frame_->cover_triangle(triangle, work.rows);
     if (frame_->takes_exact_path(triangle)) return set_up_exact(triangle, pass, work);
     split_at_cone(frame_->scene->lights[pass], source, work.rows);
     const auto dark = [](const RowSpan& row) { return !row.lit; };

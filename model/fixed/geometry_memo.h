@@ -1,13 +1,16 @@
-// Intermediate results of setup that depend on the geometry and its lights alone, kept for other
-// frames of the same geometry, whose formats differ.
+// Intermediate results that depend on the geometry and its lights alone, kept for other frames of
+// the same geometry, whose formats differ.
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "model/fixed/span.h"
+#include "model/scene/scene.h"
 #include "model/shading/triangle_setup.h"
 
 namespace phongpipe {
@@ -52,15 +55,55 @@ class GeometryMemo {
     Series whole;   // the material's whole plan
   };
 
+  // What a triangle covers, whatever the light.
+  class Coverage {
+   public:
+    // The covered rows, by compute() if they are not known.
+    template <typename Compute>
+    const std::vector<RowSpan>& rows(const Compute& compute) {
+      if (!rows_) rows_ = compute();
+      return *rows_;
+    }
+
+   private:
+    friend class GeometryMemo;
+    std::optional<std::vector<RowSpan>> rows_;
+    std::vector<Color> exact_;  // of the pixels of the rows, one row after the other
+  };
+
   GeometryMemo(std::size_t triangles, std::size_t passes) : triangles_(triangles) {
     constexpr std::size_t kMost = 50'000;  // some 40 MB
-    if (triangles * passes <= kMost) series_.resize(triangles * passes);
+    if (triangles * passes > kMost) return;
+    series_.resize(triangles * passes);
+    coverage_.resize(triangles);
   }
 
   // Null if there are too many triangles to keep them all. Threads may use different triangles at
   // the same time.
   Triangle* triangle(std::uint32_t triangle, std::uint32_t pass) {
     return series_.empty() ? nullptr : &series_[pass * triangles_ + triangle];
+  }
+
+  // The same of its coverage.
+  Coverage* coverage(std::uint32_t triangle) {
+    return coverage_.empty() ? nullptr : &coverage_[triangle];
+  }
+
+  // The exact colours of the `pixels` that a triangle covers; compute(colors) is called if they are
+  // not known. Null if there is no room for them.
+  template <typename Compute>
+  const Color* exact_colors(std::uint32_t triangle, std::int64_t pixels, const Compute& compute) {
+    Coverage* const known = coverage(triangle);
+    if (known == nullptr) return nullptr;
+    if (known->exact_.empty()) {
+      if (room_for_pixels_.fetch_sub(pixels) < pixels) {
+        room_for_pixels_ += pixels;
+        return nullptr;
+      }
+      known->exact_.resize(static_cast<std::size_t>(pixels));
+      compute(known->exact_.data());
+    }
+    return known->exact_.data();
   }
 
   // Whether two triangles cover the same pixel.
@@ -73,6 +116,8 @@ class GeometryMemo {
  private:
   std::size_t triangles_;
   std::vector<Triangle> series_;  // pass by pass
+  std::vector<Coverage> coverage_;
+  std::atomic<std::int64_t> room_for_pixels_{std::int64_t{2} << 20};  // some 50 MB of exact colours
   std::optional<bool> overlap_;
 };
 

@@ -6,16 +6,16 @@ namespace phongpipe::by_span {
 
 void ClockedPixelDatapath::run() {
   // Clocks without a pixel and without a span that are simulated before time jumps to the next
-  // span: longer than from one pixel to the next, so that a datapath that emits one too many is
-  // caught.
-  const Cycle patience = context_.frame.configuration.interval_cycles() + 8;
+  // span, or ends: until the last pixel's slot is free, and longer than from one pixel to the next,
+  // so that a datapath that emits one too many is caught.
+  const Cycle patience = context_.frame.configuration.interval_cycles() + 2;
   Cycle last_progress = 0, idle_clocks = 0;
   for (Cycle cycle = 0;; ++cycle) {
     const bool more = spans_.wait_for_item();
-    if (!more && driver_.pixels_in_flight() <= 0) break;
     const bool visible = more && spans_.front_seen_from() <= cycle;
     idle_clocks = visible || driver_.pixels_in_flight() > 0 ? 0 : idle_clocks + 1;
-    if (more && idle_clocks > patience) {
+    if (idle_clocks > patience) {
+      if (!more) break;
       last_progress = spans_.front_seen_from();
       cycle = last_progress - 1;
       continue;

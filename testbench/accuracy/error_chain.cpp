@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "model/fixed/color_sum.h"
 #include "model/shading/exact_power.h"
@@ -158,13 +159,11 @@ class TriangleChain {
  public:
   TriangleChain(const FrameSetup& frame, const FrontEnd& front_end, std::uint32_t triangle,
                 Links links)
-      : frame_(frame),
-        phong_(*frame.scene,
-               frame.geometry->materials[frame.geometry->triangles[triangle].material],
-               frame.geometry->triangles[triangle]) {
+      : frame_(frame), triangle_(triangle) {
     const std::optional<DepthCue>& cue = frame.scene->depth_cue;
     if (cue) cue_color_ = kOutputMax * cue->color;
-    cover(frame.geometry->triangles[triangle], frame.width, frame.height, rows_);
+    frame.cover_triangle(triangle, rows_);
+    shade_exactly();
     TriangleWork work;
     for (std::uint32_t pass = 0; pass < frame.passes; ++pass) {
       if (front_end.set_up(triangle, pass, work) == SetupOutcome::nothing) continue;
@@ -186,13 +185,16 @@ class TriangleChain {
     first_exact_ =
         std::lower_bound(exact_rows_.begin(), exact_rows_.end(), row, before) - exact_rows_.begin();
     for (PassChain& pass : passes_) pass.start_row(row.y);
-    exact_.resize(std::max(exact_.size(), static_cast<std::size_t>(row.length)));
-    phong_.shade(row.x, row.y, row.length, exact_.data());
+    exact_of_row_ = exact_;
+    for (const RowSpan& above : rows_) {
+      if (above.y == row.y) break;
+      exact_of_row_ += above.length;
+    }
   }
 
   // The links of pixel i of the row, but the output.
   void at(int i, ErrorChain& chain) const {
-    chain.shown = exact_[static_cast<std::size_t>(i)];
+    chain.shown = exact_of_row_[i];
     chain.exact = chain.shown;
     if (!exact_values_.empty()) {
       chain.polynomial = chain.shown;
@@ -209,6 +211,26 @@ class TriangleChain {
   }
 
  private:
+  // The exact colours of all pixels, unless an earlier frame has left them.
+  void shade_exactly() {
+    const auto shade = [this](Color* colors) {
+      const ScreenTriangle& shape = frame_.geometry->triangles[triangle_];
+      const PhongTriangle phong(*frame_.scene, frame_.geometry->materials[shape.material], shape);
+      for (const RowSpan& row : rows_) {
+        phong.shade(row.x, row.y, row.length, colors);
+        colors += row.length;
+      }
+    };
+    const auto pixels =
+        std::accumulate(rows_.begin(), rows_.end(), std::int64_t{0},
+                        [](std::int64_t sum, const RowSpan& row) { return sum + row.length; });
+    if (frame_.memo != nullptr) exact_ = frame_.memo->exact_colors(triangle_, pixels, shade);
+    if (exact_ != nullptr) return;
+    own_exact_.resize(static_cast<std::size_t>(pixels));
+    shade(own_exact_.data());
+    exact_ = own_exact_.data();
+  }
+
   // The colours of exact_path, which are of all lights, without the half that rounds them.
   void take_exact_values(const TriangleWork& work) {
     exact_rows_ = work.rows;
@@ -231,12 +253,14 @@ class TriangleChain {
   }
 
   const FrameSetup& frame_;
-  PhongTriangle phong_;
+  std::uint32_t triangle_;
   std::vector<PassChain> passes_;
   std::vector<RowSpan> rows_;
   Color cue_color_ = Color::Zero();
   RowSpan row_;
-  std::vector<Color> exact_;
+  const Color* exact_ = nullptr;  // of all pixels of the triangle, row by row
+  const Color* exact_of_row_ = nullptr;
+  std::vector<Color> own_exact_;  // what `exact_` points to, if no earlier frame left it
   // Of a triangle of exact_path: its pixels, their values, and the first of the row.
   std::vector<RowSpan> exact_rows_;
   std::vector<Color> exact_values_;

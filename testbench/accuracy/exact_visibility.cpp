@@ -6,7 +6,6 @@
 #include <limits>
 #include <tuple>
 
-#include "model/fixed/coverage.h"
 #include "testbench/system/parallel.h"
 
 namespace phongpipe {
@@ -41,7 +40,7 @@ class VisibilityCheck {
     const ScreenTriangle& shape = frame_.geometry->triangles[triangle];
     const ExactDepth depth(shape);
     std::vector<RowSpan> rows;
-    cover(shape, frame_.width, frame_.height, rows);
+    frame_.cover_triangle(triangle, rows);
     for (const RowSpan& row : rows) {
       for (int x = row.x; x < row.x + row.length; ++x) {
         const std::size_t index = framebuffer_.index_of(x, row.y);

@@ -25,17 +25,50 @@ class Swallowing : public ClockedDatapath {
   DatapathOutputs clock(const DatapathInputs&) override { return {true, false, {}}; }
 };
 
+constexpr int kAddressBits = 6;
+
+FrameConfiguration small_table() {
+  FrameConfiguration configuration;
+  configuration.rom_address_bits = kAddressBits;
+  return configuration;
+}
+
+// Delivers the last of `pixels` pixels twice.
+class OneTooMany : public ClockedDatapath {
+ public:
+  explicit OneTooMany(std::size_t pixels) : right_(small_table()), left_(pixels) {}
+  void reset() override { right_.reset(); }
+  DatapathOutputs clock(const DatapathInputs& inputs) override {
+    DatapathOutputs outputs = right_.clock(inputs);
+    if (outputs.pixel_valid && inputs.pixel_ready) {
+      last_ = outputs;
+      ends_ = --left_ == 0;
+    } else if (ends_) {
+      outputs = last_;
+      ends_ = !inputs.pixel_ready;
+    }
+    return outputs;
+  }
+
+ private:
+  DatapathRegisters right_;
+  DatapathOutputs last_;
+  std::size_t left_;
+  bool ends_ = false;
+};
+
 class Watchdog : public testing::TestWithParam<Detail> {
  protected:
-  // The pipeline's failure; at most one simulation a process.
   std::string failure(ClockedDatapath* datapath, std::int64_t watchdog_cycles,
                       int framebuffer_cycles = 1) const {
+    return run(datapath, watchdog_cycles, framebuffer_cycles).counts.failure;
+  }
+  Trace run(ClockedDatapath* datapath, std::int64_t watchdog_cycles,
+            int framebuffer_cycles = 1) const {
     Random random(71);
     const Scene scene = lit_scene(64, 64);
     const Geometry geometry = random_geometry(random, scene, 30, 15);
-    FrameConfiguration configuration;
-    configuration.rom_address_bits = 6;
-    const FrameSetup frame(scene, geometry, configuration);
+    const FrameSetup frame(scene, geometry, small_table());
     PipelineConfiguration pipeline;
     pipeline.span_fifo = 5;
     pipeline.framebuffer_write_cycles = pipeline.framebuffer_test_cycles = framebuffer_cycles;
@@ -43,7 +76,7 @@ class Watchdog : public testing::TestWithParam<Detail> {
     options.detail = GetParam();
     options.datapath = datapath;
     options.watchdog_cycles = watchdog_cycles;
-    return simulate_apart(frame, pipeline, options).counts.failure;
+    return simulate_apart(frame, pipeline, options);
   }
 };
 
@@ -72,12 +105,16 @@ TEST_P(Watchdog, ReportsADatapathThatLosesPixels) {
 }
 
 TEST_P(Watchdog, LeavesASlowPipelineAlone) {
-  DatapathRegisters datapath([] {
-    FrameConfiguration configuration;
-    configuration.rom_address_bits = 6;
-    return configuration;
-  }());
+  DatapathRegisters datapath(small_table());
   EXPECT_EQ(failure(&datapath, 3000, 1000), "");
+}
+
+TEST_P(Watchdog, SeesAPixelAfterTheLast) {
+  DatapathRegisters right(small_table());
+  const std::size_t pixels = run(&right, 3000).stream.size();
+  ASSERT_GT(pixels, 0U);
+  OneTooMany datapath(pixels);
+  EXPECT_EQ(run(&datapath, 3000).stream.size(), pixels + 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pipeline, Watchdog, testing::Values(Detail::span, Detail::cycle),
