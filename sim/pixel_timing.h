@@ -32,7 +32,7 @@ class PixelTiming {
   PixelTiming(const DatapathConfiguration& datapath, int depth)
       : in_(-datapath.interval_cycles()),
         interval_(datapath.interval_cycles()),
-        latency_(datapath.latency_cycles() - (datapath.lanes() > 1 ? kLaneStages : 0)),
+        latency_(datapath.latency_cycles() - datapath.lane_stages()),
         is_wide_(datapath.lanes() > 1),
         out_(static_cast<std::size_t>(kPixelQueueSlots) + 1, -kSlotFree),
         read_(static_cast<std::size_t>(depth), -1) {}

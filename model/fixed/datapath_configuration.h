@@ -144,6 +144,8 @@ struct DatapathConfiguration : FixedPointFormats, EffectBlocks {
   int lanes() const {
     return kind == DatapathKind::wide2 ? 2 : kind == DatapathKind::wide4 ? kMostLanes : 1;
   }
+  // Clocks from the acceptance of a span to its entrance into the lanes, if there are several.
+  int lane_stages() const { return lanes() > 1 ? kLaneStages : 0; }
   // Clocks from a pixel, or a group of as many as there are lanes, that enters to the next one.
   int interval_cycles() const {
     return kind == DatapathKind::serial ? serial_series() * serial_digits() : 1;
@@ -158,8 +160,7 @@ struct DatapathConfiguration : FixedPointFormats, EffectBlocks {
   // Clocks from the acceptance of a span to its first pixel at the output.
   int latency_cycles() const {
     return kDatapathLatency + (depth_cue ? kDepthCueLatency : 0) +
-           (kind == DatapathKind::serial ? interval_cycles() - kSerialStages : 0) +
-           (lanes() > 1 ? kLaneStages : 0);
+           (kind == DatapathKind::serial ? interval_cycles() - kSerialStages : 0) + lane_stages();
   }
 
   // Throws InputError naming key, value and legal range.

@@ -45,7 +45,7 @@ SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
   const auto in_lane = [&](const DatapathSignal& signal) {
     return lanes == 1 || starts_with(signal.scope, lane_scope(lane));
   };
-  const int start = lanes == 1 ? 0 : kLaneStages;
+  const int start = configuration.lane_stages();
   const int entrance = start + step * configuration.interval_cycles();
   const auto has_start = [&](int stage) {
     return configuration.kind == DatapathKind::serial ? stage <= kWholeStage : stage == 1;

@@ -287,12 +287,12 @@ class Recorder {
 };
 
 // SystemC and RTL on the same inputs; what happens in the windows is recorded.
-class TracedDatapath : public ClockedDatapath {
+class RecordedDatapath : public ClockedDatapath {
  public:
-  TracedDatapath(const FrameSetup& frame, const RtlLibrary& library,
-                 const std::vector<CycleWindow>& windows, const TraceTarget& target,
-                 const TraceOptions& options, const ActivityRecorder& activity,
-                 const std::filesystem::path& file, std::uint64_t period_ps)
+  RecordedDatapath(const FrameSetup& frame, const RtlLibrary& library,
+                   const std::vector<CycleWindow>& windows, const TraceTarget& target,
+                   const TraceOptions& options, const ActivityRecorder& activity,
+                   const std::filesystem::path& file, std::uint64_t period_ps)
       : windows_(windows),
         target_(target),
         rtl_drives_(options.rtl_drives),
@@ -383,7 +383,8 @@ RecordedTrace record_trace(const PreparedFrame& frame, const Hardware& hardware,
   const auto period = static_cast<std::uint64_t>(std::llround(clock_ns * kPicoseconds));
   Child child([&] {
     ActivityRecorder activity(0);
-    TracedDatapath datapath(frame.setup, library, windows, target, options, activity, file, period);
+    RecordedDatapath datapath(frame.setup, library, windows, target, options, activity, file,
+                              period);
     StreamHash hash;
     SimulationOptions simulation = options.simulation;
     simulation.detail = Detail::cycle;

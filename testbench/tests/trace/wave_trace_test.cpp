@@ -143,7 +143,7 @@ TEST_P(TracesOfKinds, AreComparedWindowByWindow) {
   ASSERT_EQ(trace.markers.size(), 2U);
   // From the entrance into the lanes, where the datapath has some.
   const DatapathConfiguration& datapath = frame_.setup.configuration;
-  const int latency = datapath.latency_cycles() - (datapath.lanes() > 1 ? kLaneStages : 0);
+  const int latency = datapath.latency_cycles() - datapath.lane_stages();
   EXPECT_GE(trace.markers[1].cycle - trace.markers[0].cycle, latency - 1);
   for (const auto& [a, b] : {std::pair("whole.fst", "window.vcd"), {"whole.fst", "whole.fst"}}) {
     const TraceDiff diff = diff_traces(folder_ / a, folder_ / b);
