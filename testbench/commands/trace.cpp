@@ -158,15 +158,22 @@ int trace(const TraceCommandOptions& options) {
                   size_text(static_cast<double>(fs::file_size(options.file))));
   text += fmt::format("  windows  cycles {} at {:.2f} ns a cycle\n", fmt::join(shown, ", "),
                       static_cast<double>(recorded.period_ps) / 1000);
-  for (const TraceMarker& marker : recorded.markers) {
+  constexpr std::size_t kMostMarkers = 8;
+  for (std::size_t i = 0; i < std::min(recorded.markers.size(), kMostMarkers); ++i) {
+    const TraceMarker& marker = recorded.markers[i];
     text += fmt::format("  marker   {} in cycle {}\n", marker.name, marker.cycle);
+  }
+  if (recorded.markers.size() > kMostMarkers) {
+    text += fmt::format("           and {} more in the views\n",
+                        recorded.markers.size() - kMostMarkers);
   }
   const std::string name = shell_word(printable(options.file.string()));
   text += fmt::format("  view     gtkwave {} {}   or   surfer {} -c {}\n", name,
                       shell_word(printable(gtkwave.string())), name,
                       shell_word(printable(surfer.string())));
+  if (!recorded.failure.empty()) text += fmt::format("  stopped  {}\n", recorded.failure);
   print_or_throw(text);
-  return 0;
+  return recorded.failure.empty() ? 0 : kCheckFailed;
 }
 
 }  // namespace

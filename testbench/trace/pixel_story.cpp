@@ -274,10 +274,10 @@ class StoryTeller {
   PixelStory story_;
 };
 
-// The cycles in which the pixel leaves pixel_datapath; SystemC's own, without a library.
 // The cycle in which a pixel leaves an implementation, and its colour.
 using Exit = std::pair<std::int64_t, std::uint32_t>;
 
+// Of the story's pixel, one for each visit; SystemC's own datapath is used without a library.
 std::vector<Exit> exits_of(const FrameSetup& frame, const PixelStory& story,
                            SimulationOptions options, const RtlLibrary* library) {
   std::vector<Exit> exits;
@@ -291,8 +291,13 @@ std::vector<Exit> exits_of(const FrameSetup& frame, const PixelStory& story,
   std::optional<RtlDatapath> datapath;
   if (library != nullptr) options.datapath = &datapath.emplace(*library, frame.cue_color);
   const SimulationResult simulated = simulate(frame, story.hardware.pipeline, options);
-  if (!simulated.failure.empty()) throw ToolError(simulated.failure);
-  return exits;
+  if (exits.size() == story.visits.size()) return exits;
+  const std::string& failure = simulated.failure;
+  throw ToolError(
+      fmt::format("{} delivers pixel {},{} {} times, the model {}{}; `phongpipe verify` tells "
+                  "where they differ",
+                  library == nullptr ? "SystemC" : "the RTL", story.x, story.y, exits.size(),
+                  story.visits.size(), failure.empty() ? "" : fmt::format(" ({})", failure)));
 }
 
 }  // namespace
@@ -347,18 +352,8 @@ void add_cycles(const PreparedFrame& frame, const RtlLibrary& library,
     };
   };
   Child rtl(simulate_with(&library)), systemc(simulate_with(nullptr));
-  const auto wait_for = [&story](Child& child, const char* name) {
-    auto exits = from_bytes<std::vector<Exit>>(child.get());
-    if (exits.size() != story.visits.size()) {
-      throw ToolError(fmt::format(
-          "{} delivers pixel {},{} {} times, the model {}; `phongpipe verify` tells where they "
-          "differ",
-          name, story.x, story.y, exits.size(), story.visits.size()));
-    }
-    return exits;
-  };
-  const std::vector<Exit> from_systemc = wait_for(systemc, "SystemC");
-  const std::vector<Exit> from_rtl = wait_for(rtl, "the RTL");
+  const auto from_systemc = from_bytes<std::vector<Exit>>(systemc.get());
+  const auto from_rtl = from_bytes<std::vector<Exit>>(rtl.get());
   for (std::size_t i = 0; i < story.visits.size(); ++i) {
     PixelVisit& visit = story.visits[i];
     visit.systemc_cycle = from_systemc[i].first;

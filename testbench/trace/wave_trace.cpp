@@ -399,6 +399,7 @@ RecordedTrace record_trace(const PreparedFrame& frame, const Hardware& hardware,
     trace.markers = datapath.markers();
     trace.period_ps = period;
     trace.frame_cycles = result.frame_cycles;
+    trace.failure = result.failure;
     trace.stream_hash = fingerprint.stream_hash ^ fingerprint.cycles_hash;
     return to_bytes(trace);
   });

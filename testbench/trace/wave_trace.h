@@ -29,12 +29,13 @@ struct TraceSummary {
   std::uint64_t period_ps = 0;
   std::int64_t frame_cycles = 0;
   std::uint64_t stream_hash = 0;  // of all pixels of the frame and their cycles
+  std::string failure;            // why the simulation ended before the frame's end, if it did
 
   static constexpr auto fields() {
     using T = TraceSummary;
     return std::make_tuple(field("markers", &T::markers), field("period_ps", &T::period_ps),
                            field("frame_cycles", &T::frame_cycles),
-                           field("stream_hash", &T::stream_hash));
+                           field("stream_hash", &T::stream_hash), field("failure", &T::failure));
   }
 };
 struct RecordedTrace : TraceSummary {

@@ -56,6 +56,23 @@ TEST_F(TraceProgram, BadTargetsAreOneLineAndNothingIsWritten) {
   EXPECT_FALSE(fs::exists(t));
 }
 
+// The trace is written, and tells why it ends; a pixel before the end can be explained.
+TEST_F(TraceProgram, RtlThatHangsIsTold) {
+  const std::string correct = "assign span_ready = room && open";
+  const std::string rtl = faulty_rtl(correct, correct + " && remaining != 3", "span_control.sv");
+  const ProcessOutput trace = run(
+      {"trace", "sphere", "--pixel", "128,17", "--rtl", rtl, "--rtl-drives", "-o", file("t.vcd")});
+  EXPECT_EQ(trace.status, 1) << trace.text;
+  EXPECT_NE(trace.text.find("stopped  nothing has moved"), std::string::npos) << trace.text;
+  EXPECT_TRUE(fs::exists(file("t.vcd")));
+  EXPECT_EQ(run({"explain", "sphere", "--pixel", "128,12", "--rtl", rtl}).status, 0);
+  const ProcessOutput after = run({"explain", "sphere", "--pixel", "128,17", "--rtl", rtl});
+  EXPECT_EQ(after.status, 3) << after.text;
+  EXPECT_NE(after.text.find("the RTL delivers pixel 128,17 0 times, the model 1 (nothing has"),
+            std::string::npos)
+      << after.text;
+}
+
 TEST_F(TraceProgram, AFaultIsNamedTracedAndReplayed) {
   const std::string rtl = faulty_rtl();
   const ProcessOutput output =
