@@ -36,8 +36,9 @@ ProcessOutput verilator(const std::string& top, const Parameters& parameters) {
 }
 
 ProcessOutput iverilog(const std::string& top, const Parameters& parameters) {
+  // Without output: what iverilog writes it makes executable, /dev/null, too.
   std::vector<std::string> command = {"iverilog", "-g2012", "-Wall", "-I" + kFolder,
-                                      "-s",       top,      "-o",    "/dev/null"};
+                                      "-s",       top,      "-t",    "null"};
   for (const auto& [name, value] : parameters) {
     command.push_back(fmt::format("-P{}.{}={}", top, name, value));
   }
