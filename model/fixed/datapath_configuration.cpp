@@ -5,12 +5,21 @@
 #include "model/scene/input_error.h"
 
 namespace phongpipe {
+namespace {
+
+std::vector<std::string_view> kind_names() {
+  std::vector<std::string_view> names;
+  for (const DatapathKindTraits& kind : kDatapathKinds) names.push_back(kind.name);
+  return names;
+}
+
+}  // namespace
 
 const Settings<FixedPointFormats>& FixedPointFormats::settings() {
   using F = FixedPointFormats;
   // Fractions end where the registers of the plain layout have kWidestSeries bits.
   static const Settings<F> all = {
-      choice_setting("datapath", "kind", &F::kind, {"pipelined", "serial", "wide2", "wide4"},
+      choice_setting("datapath", "kind", &F::kind, kind_names(),
                      "a pixel a clock; or a digit of 8 bits of one series a clock, in half the "
                      "LUTs; or 2 or 4 pixels side by side a clock"),
       choice_setting("datapath", "channels", &F::channel_choice, {"auto", "1", "3"},
@@ -110,11 +119,6 @@ void FrameConfiguration::check() const {
   }
 }
 
-std::string_view rtl_module(const DatapathConfiguration& datapath) {
-  if (datapath.kind == DatapathKind::serial) return "pixel_datapath_serial";
-  return datapath.lanes() > 1 ? "pixel_datapath_wide" : "pixel_datapath";
-}
-
 RtlParameters rtl_parameters(const DatapathConfiguration& datapath) {
   RtlParameters parameters = {{"CHANNELS", datapath.channels},
                               {"DIFFUSE", datapath.diffuse},
@@ -145,7 +149,7 @@ std::string rtl_parameters_text(const DatapathConfiguration& datapath) {
   const std::string parameters = parameters_text(rtl_parameters(datapath));
   return datapath.kind == DatapathKind::pipelined
              ? parameters
-             : std::string(rtl_module(datapath)) + "-" + parameters;
+             : std::string(traits(datapath.kind).rtl_module) + "-" + parameters;
 }
 
 }  // namespace phongpipe

@@ -41,8 +41,21 @@ constexpr int least_specular_guard_bits(RomLayout layout) {
 // `pipelined`: a pixel a clock. `serial`: a digit of one series a clock, in few LUTs. `wide2` and
 // `wide4`: 2 and 4 pixels side by side a clock, of as many pipelined datapaths that take turns.
 enum class DatapathKind { pipelined, serial, wide2, wide4 };
-inline constexpr std::array kDatapathKinds = {DatapathKind::pipelined, DatapathKind::serial,
-                                              DatapathKind::wide2, DatapathKind::wide4};
+struct DatapathKindTraits {
+  DatapathKind kind;
+  std::string_view name;        // of the setting datapath.kind
+  std::string_view rtl_module;  // several kinds may have one
+  int lanes;                    // pixels that enter together, and leave together
+};
+inline constexpr std::array<DatapathKindTraits, 4> kDatapathKinds = {{
+    {DatapathKind::pipelined, "pipelined", "pixel_datapath", 1},
+    {DatapathKind::serial, "serial", "pixel_datapath_serial", 1},
+    {DatapathKind::wide2, "wide2", "pixel_datapath_wide", 2},
+    {DatapathKind::wide4, "wide4", "pixel_datapath_wide", kMostLanes},
+}};
+constexpr const DatapathKindTraits& traits(DatapathKind kind) {
+  return kDatapathKinds[static_cast<std::size_t>(kind)];
+}
 
 // `automatic`: one channel if all colours of the scene are grey, else three.
 enum class ChannelChoice { automatic, one, three };
@@ -140,10 +153,7 @@ struct DatapathConfiguration : FixedPointFormats, EffectBlocks {
            (3 * ((diffuse ? channels : 0) + (has_gate_series() ? 1 : 0)) * diffuse_width() +
             (specular ? 3 * specular_width() : 0) + (depth_cue ? 2 * kCueWidth : 0));
   }
-  // Pixels that enter together, and leave together.
-  int lanes() const {
-    return kind == DatapathKind::wide2 ? 2 : kind == DatapathKind::wide4 ? kMostLanes : 1;
-  }
+  int lanes() const { return traits(kind).lanes; }
   // Clocks from the acceptance of a span to its entrance into the lanes, if there are several.
   int lane_stages() const { return lanes() > 1 ? kLaneStages : 0; }
   // Clocks from a pixel, or a group of as many as there are lanes, that enters to the next one.
@@ -198,11 +208,9 @@ inline double least_certified_error_lsb(const DatapathConfiguration& datapath) {
   return 0.5 + std::ldexp(0.5, -datapath.diffuse_fraction_bits) + kExactPathNoise;
 }
 
-// The RTL module of a configuration.
-std::string_view rtl_module(const DatapathConfiguration& datapath);
-// Parameters of a module by name.
+// Parameters of an RTL module by name.
 using RtlParameters = std::vector<std::pair<std::string_view, int>>;
-// Those of rtl_module(datapath).
+// Those of the module of the configuration's kind.
 RtlParameters rtl_parameters(const DatapathConfiguration& datapath);
 // "CHANNELS=1-DIFFUSE=1-…", after the name of the module if it is not pixel_datapath: names the RTL
 // of a configuration in file names, messages, libraries and technology cards.

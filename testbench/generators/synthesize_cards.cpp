@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "model/scene/input_error.h"
 #include "testbench/hardware/hardware.h"
@@ -159,12 +160,14 @@ std::string card_text(const Device& device, const Designs& designs, const std::s
       "name = \"{}\"\nsource = \"this RTL, placed and routed by {}\"\n"
       "device = \"{}\"\npackage = \"{}\"\n",
       device.title, kPlacementSeeds, device.card, tools, device.device, device.package);
-  for (const std::string_view module : kFittedModules) {
+  std::set<std::string_view> modules;
+  for (const DatapathKindTraits& kind : kDatapathKinds) modules.insert(kind.rtl_module);
+  for (const std::string_view module : modules) {
     const auto add = [&](const char* name, auto member, const auto& features) {
       std::vector<DatapathConfiguration> configurations;
       std::vector<double> values;
       for (std::size_t i = 0; i < designs.measured.size(); ++i) {
-        if (rtl_module(designs.configurations[i]) != module) continue;
+        if (traits(designs.configurations[i].kind).rtl_module != module) continue;
         configurations.push_back(designs.configurations[i]);
         values.push_back(static_cast<double>(designs.measured[i].*member));
       }

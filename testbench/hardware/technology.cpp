@@ -156,12 +156,12 @@ std::optional<AreaFigure> Technology::area(const DatapathConfiguration& configur
 }
 
 const FittedModels& Technology::models_of(const DatapathConfiguration& configuration) const {
-  const auto found = fitted.find(rtl_module(configuration));
+  const auto found = fitted.find(traits(configuration.kind).rtl_module);
   if (found != fitted.end()) return found->second;
   throw InputError(
       fmt::format("technology {}: no [fitted.{}] in the card, for configurations that "
                   "it does not list; choose another technology",
-                  name, rtl_module(configuration)));
+                  name, traits(configuration.kind).rtl_module));
 }
 
 Technology load_technology(const std::string& name) {
@@ -178,8 +178,9 @@ Technology load_technology(const std::string& name) {
     technology.device = table.text("device");
     technology.package = table.text("package");
     const TomlTable fitted = table.table("fitted");
-    for (const std::string_view module : kFittedModules) {
-      if (!fitted.has(module)) continue;
+    for (const DatapathKindTraits& kind : kDatapathKinds) {
+      const std::string_view module = kind.rtl_module;
+      if (!fitted.has(module) || technology.fitted.count(module) != 0) continue;
       const TomlTable models = fitted.table(module);
       technology.fitted[std::string(module)] = {read_model(models, "clock_ns"),
                                                 read_model(models, "luts"),

@@ -68,8 +68,6 @@ struct FittedModel {
 struct FittedModels {
   FittedModel clock_ns, luts, registers;
 };
-constexpr std::array<std::string_view, 3> kFittedModules = {
-    "pixel_datapath", "pixel_datapath_serial", "pixel_datapath_wide"};
 
 struct Technology {
   std::string name;

@@ -80,7 +80,7 @@ void verilate(const DatapathConfiguration& configuration, const std::string& pre
                                       "--prefix",
                                       prefix,
                                       "--top-module",
-                                      std::string(rtl_module(configuration)),
+                                      std::string(traits(configuration.kind).rtl_module),
                                       "-I" + std::string(ToolFolder::kSources)};
   if (build == RtlBuild::signals) {
     command.insert(command.end(), {"--public-flat-rw", "--vpi"});

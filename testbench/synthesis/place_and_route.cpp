@@ -154,7 +154,7 @@ Placement read_report(const fs::path& file,
 }  // namespace
 
 SynthesisTarget datapath_target(const DatapathConfiguration& configuration) {
-  return {std::string(rtl_module(configuration)),
+  return {std::string(traits(configuration.kind).rtl_module),
           rtl_parameters(configuration),
           inputs_of(configuration),
           outputs_of(configuration),

@@ -66,15 +66,15 @@ bool is_legal(const DatapathConfiguration& c) {
 }
 
 std::string module_of(const DatapathConfiguration& c) {
-  return std::string(rtl_module(c));
+  return std::string(traits(c.kind).rtl_module);
 }
 
 // visit(configuration) for every kind of datapath and every legal combination of blocks.
 template <typename Visit>
 void for_each_block_combination(Visit visit) {
   DatapathConfiguration c;
-  for (const DatapathKind kind : kDatapathKinds) {
-    c.kind = kind;
+  for (const DatapathKindTraits& kind : kDatapathKinds) {
+    c.kind = kind.kind;
     for (int blocks = 0; blocks < 8; ++blocks) {
       c.diffuse = (blocks & 1) != 0;
       c.specular = (blocks & 2) != 0;
@@ -99,8 +99,8 @@ TEST(Lint, VerilatorTakesEveryCombinationOfBlocks) {
 // Where all formats are at the lowest and at the highest value that the table of settings has.
 TEST(Lint, VerilatorTakesTheEndsOfEveryRange) {
   DatapathConfiguration c;
-  for (const DatapathKind kind : kDatapathKinds) {
-    c.kind = kind;
+  for (const DatapathKindTraits& kind : kDatapathKinds) {
+    c.kind = kind.kind;
     for (const bool highest : {false, true}) {
       for (const Setting<FixedPointFormats>& setting : FixedPointFormats::settings()) {
         if (!setting.rtl_parameter.empty()) setting.put(c, highest ? setting.high : setting.low);

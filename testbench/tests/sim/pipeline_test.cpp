@@ -97,8 +97,8 @@ TEST(Pipeline, BySpanIsByCycleForAnyConfiguration) {
     SimulationOptions options;
     options.stall_percent = random.integer(0, 1) * random.integer(1, 60);
     options.stall_seed = seed;
-    for (const DatapathKind kind : kDatapathKinds) {
-      SCOPED_TRACE("kind " + std::to_string(static_cast<int>(kind)));
+    for (const auto& [kind, name, module, lanes] : kDatapathKinds) {
+      SCOPED_TRACE(name);
       datapath.kind = kind;
       expect_agreement(FrameSetup(scene, geometry, datapath), pipeline, options);
     }

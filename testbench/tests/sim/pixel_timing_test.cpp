@@ -113,7 +113,7 @@ TEST(PixelTiming, IsThatOfEveryClock) {
     }
     const int depth = random.integer(1, 20);
     DatapathConfiguration datapath;
-    datapath.kind = kDatapathKinds[random.below(kDatapathKinds.size())];
+    datapath.kind = kDatapathKinds[random.below(kDatapathKinds.size())].kind;
     datapath.diffuse_fraction_bits = random.integer(4, 30);
     datapath.depth_cue = random.integer(0, 1) == 0;
     datapath.specular = random.integer(0, 1) == 0;
