@@ -56,6 +56,9 @@ inline constexpr std::array<DatapathKindTraits, 4> kDatapathKinds = {{
 constexpr const DatapathKindTraits& traits(DatapathKind kind) {
   return kDatapathKinds[static_cast<std::size_t>(kind)];
 }
+static_assert(traits(DatapathKind::serial).kind == DatapathKind::serial &&
+              traits(DatapathKind::wide2).kind == DatapathKind::wide2 &&
+              traits(DatapathKind::wide4).kind == DatapathKind::wide4);
 
 // `automatic`: one channel if all colours of the scene are grey, else three.
 enum class ChannelChoice { automatic, one, three };

@@ -251,13 +251,11 @@ FrameSetup::FrameSetup(const Scene& scene_, const Geometry& geometry_,
 }
 
 void FrameSetup::cover_triangle(std::uint32_t triangle, std::vector<RowSpan>& rows) const {
-  GeometryMemo::Coverage* const known = memo == nullptr ? nullptr : memo->coverage(triangle);
-  if (known == nullptr) return cover(geometry->triangles[triangle], width, height, rows);
-  rows = known->rows([&] {
-    std::vector<RowSpan> fresh;
+  const auto compute = [&](std::vector<RowSpan>& fresh) {
     cover(geometry->triangles[triangle], width, height, fresh);
-    return fresh;
-  });
+  };
+  if (memo == nullptr) return compute(rows);
+  memo->cover(triangle, rows, compute);
 }
 
 MaterialSetup FrameSetup::set_up_material(std::uint32_t pass, const Material& material,

@@ -11,6 +11,7 @@
 #include "model/fixed/datapath_configuration.h"
 #include "model/fixed/exponent_rom.h"
 #include "model/fixed/geometry_memo.h"
+#include "model/fixed/span.h"
 #include "model/scene/geometry.h"
 #include "model/shading/triangle_setup.h"
 

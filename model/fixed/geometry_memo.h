@@ -1,5 +1,5 @@
-// Intermediate results that depend on the geometry and its lights alone, kept for other frames of
-// the same geometry, whose formats differ.
+// Intermediate results that depend on the scene and its geometry alone, kept for other frames of
+// the same geometry, whose hardware differs.
 #pragma once
 
 #include <array>
@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "model/fixed/span.h"
@@ -55,23 +56,10 @@ class GeometryMemo {
     Series whole;   // the material's whole plan
   };
 
-  // What a triangle covers, whatever the light.
-  class Coverage {
-   public:
-    // The covered rows, by compute() if they are not known.
-    template <typename Compute>
-    const std::vector<RowSpan>& rows(const Compute& compute) {
-      if (!rows_) rows_ = compute();
-      return *rows_;
-    }
-
-   private:
-    friend class GeometryMemo;
-    std::optional<std::vector<RowSpan>> rows_;
-    std::vector<Color> exact_;  // of the pixels of the rows, one row after the other
-  };
-
-  GeometryMemo(std::size_t triangles, std::size_t passes) : triangles_(triangles) {
+  // `room_bytes`: for rows and exact colours.
+  GeometryMemo(std::size_t triangles, std::size_t passes,
+               std::int64_t room_bytes = std::int64_t{64} << 20)
+      : triangles_(triangles), room_bytes_(room_bytes) {
     constexpr std::size_t kMost = 50'000;  // some 40 MB
     if (triangles * passes > kMost) return;
     series_.resize(triangles * passes);
@@ -84,26 +72,31 @@ class GeometryMemo {
     return series_.empty() ? nullptr : &series_[pass * triangles_ + triangle];
   }
 
-  // The same of its coverage.
-  Coverage* coverage(std::uint32_t triangle) {
-    return coverage_.empty() ? nullptr : &coverage_[triangle];
+  // Sets `rows` to what a triangle covers, by compute(rows) if that is not known.
+  template <typename Compute>
+  void cover(std::uint32_t triangle, std::vector<RowSpan>& rows, const Compute& compute) {
+    Coverage* const known = coverage_.empty() ? nullptr : &coverage_[triangle];
+    if (known != nullptr && known->rows) {
+      rows = *known->rows;
+      return;
+    }
+    compute(rows);
+    if (known != nullptr && take_room(rows.size() * sizeof(RowSpan))) known->rows = rows;
   }
 
-  // The exact colours of the `pixels` that a triangle covers; compute(colors) is called if they are
-  // not known. Null if there is no room for them.
+  // The exact colours of the `pixels` that a triangle covers, by compute(colors) if they are not
+  // known. Null if there is none, or no room for them.
   template <typename Compute>
-  const Color* exact_colors(std::uint32_t triangle, std::int64_t pixels, const Compute& compute) {
-    Coverage* const known = coverage(triangle);
-    if (known == nullptr) return nullptr;
-    if (known->exact_.empty()) {
-      if (room_for_pixels_.fetch_sub(pixels) < pixels) {
-        room_for_pixels_ += pixels;
-        return nullptr;
-      }
-      known->exact_.resize(static_cast<std::size_t>(pixels));
-      compute(known->exact_.data());
+  const Color* exact_colors(std::uint32_t triangle, std::size_t pixels, const Compute& compute) {
+    if (coverage_.empty() || pixels == 0) return nullptr;
+    std::vector<Color>& known = coverage_[triangle].exact;
+    if (known.empty()) {
+      if (!take_room(pixels * sizeof(Color))) return nullptr;
+      std::vector<Color> fresh(pixels);
+      compute(fresh.data());
+      known = std::move(fresh);
     }
-    return known->exact_.data();
+    return known.data();
   }
 
   // Whether two triangles cover the same pixel.
@@ -114,10 +107,22 @@ class GeometryMemo {
   }
 
  private:
+  struct Coverage {
+    std::optional<std::vector<RowSpan>> rows;
+    std::vector<Color> exact;  // of all pixels, row by row; under all lights
+  };
+
+  bool take_room(std::size_t bytes) {
+    const auto wanted = static_cast<std::int64_t>(bytes);
+    if (room_bytes_.fetch_sub(wanted) >= wanted) return true;
+    room_bytes_ += wanted;
+    return false;
+  }
+
   std::size_t triangles_;
   std::vector<Triangle> series_;  // pass by pass
   std::vector<Coverage> coverage_;
-  std::atomic<std::int64_t> room_for_pixels_{std::int64_t{2} << 20};  // some 50 MB of exact colours
+  std::atomic<std::int64_t> room_bytes_;
   std::optional<bool> overlap_;
 };
 

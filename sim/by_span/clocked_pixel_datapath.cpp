@@ -5,15 +5,20 @@
 namespace phongpipe::by_span {
 
 void ClockedPixelDatapath::run() {
-  // Clocks without a pixel and without a span that are simulated before time jumps to the next
-  // span, or ends: until the last pixel's slot is free, and longer than from one pixel to the next,
-  // so that a datapath that emits one too many is caught.
+  // Clocks without a pixel and without a span, but with room at the output, that are simulated
+  // before time jumps to the next span, or ends: until the last pixel's slot is free, and longer
+  // than from one pixel to the next, so that a datapath that emits one too many is caught.
   const Cycle patience = context_.frame.configuration.interval_cycles() + 2;
   Cycle last_progress = 0, idle_clocks = 0;
   for (Cycle cycle = 0;; ++cycle) {
     const bool more = spans_.wait_for_item();
     const bool visible = more && spans_.front_seen_from() <= cycle;
-    idle_clocks = visible || driver_.pixels_in_flight() > 0 ? 0 : idle_clocks + 1;
+    const bool ready = timing_.slot_free_from() <= cycle;
+    if (visible || driver_.pixels_in_flight() > 0) {
+      idle_clocks = 0;
+    } else if (ready) {
+      ++idle_clocks;
+    }
     if (idle_clocks > patience) {
       if (!more) break;
       last_progress = spans_.front_seen_from();
@@ -21,7 +26,7 @@ void ClockedPixelDatapath::run() {
       continue;
     }
     const DatapathDriver::Outcome outcome =
-        driver_.clock(visible ? &spans_.front() : nullptr, timing_.slot_free_from() <= cycle);
+        driver_.clock(visible ? &spans_.front() : nullptr, ready);
     if (outcome.span_taken) {
       in_flight_.push_back(spans_.front());
       spans_.pop(cycle);

@@ -163,7 +163,8 @@ class TriangleChain {
     const std::optional<DepthCue>& cue = frame.scene->depth_cue;
     if (cue) cue_color_ = kOutputMax * cue->color;
     frame.cover_triangle(triangle, rows_);
-    shade_exactly();
+    exact_ = known_exact_colors();
+    if (exact_ == nullptr && !rows_.empty()) phong_.emplace(phong());
     TriangleWork work;
     for (std::uint32_t pass = 0; pass < frame.passes; ++pass) {
       if (front_end.set_up(triangle, pass, work) == SetupOutcome::nothing) continue;
@@ -185,6 +186,12 @@ class TriangleChain {
     first_exact_ =
         std::lower_bound(exact_rows_.begin(), exact_rows_.end(), row, before) - exact_rows_.begin();
     for (PassChain& pass : passes_) pass.start_row(row.y);
+    if (exact_ == nullptr) {
+      own_exact_.resize(std::max(own_exact_.size(), static_cast<std::size_t>(row.length)));
+      phong_->shade(row.x, row.y, row.length, own_exact_.data());
+      exact_of_row_ = own_exact_.data();
+      return;
+    }
     exact_of_row_ = exact_;
     for (const RowSpan& above : rows_) {
       if (above.y == row.y) break;
@@ -211,24 +218,25 @@ class TriangleChain {
   }
 
  private:
-  // The exact colours of all pixels, unless an earlier frame has left them.
-  void shade_exactly() {
+  // The exact colours of all pixels; null where the frame's memo does not keep them.
+  const Color* known_exact_colors() const {
+    if (frame_.memo == nullptr) return nullptr;
     const auto shade = [this](Color* colors) {
-      const ScreenTriangle& shape = frame_.geometry->triangles[triangle_];
-      const PhongTriangle phong(*frame_.scene, frame_.geometry->materials[shape.material], shape);
+      const PhongTriangle exact = phong();
       for (const RowSpan& row : rows_) {
-        phong.shade(row.x, row.y, row.length, colors);
+        exact.shade(row.x, row.y, row.length, colors);
         colors += row.length;
       }
     };
-    const auto pixels =
-        std::accumulate(rows_.begin(), rows_.end(), std::int64_t{0},
-                        [](std::int64_t sum, const RowSpan& row) { return sum + row.length; });
-    if (frame_.memo != nullptr) exact_ = frame_.memo->exact_colors(triangle_, pixels, shade);
-    if (exact_ != nullptr) return;
-    own_exact_.resize(static_cast<std::size_t>(pixels));
-    shade(own_exact_.data());
-    exact_ = own_exact_.data();
+    const auto pixels = std::accumulate(rows_.begin(), rows_.end(), std::size_t{0},
+                                        [](std::size_t sum, const RowSpan& row) {
+                                          return sum + static_cast<std::size_t>(row.length);
+                                        });
+    return frame_.memo->exact_colors(triangle_, pixels, shade);
+  }
+  PhongTriangle phong() const {
+    const ScreenTriangle& shape = frame_.geometry->triangles[triangle_];
+    return {*frame_.scene, frame_.geometry->materials[shape.material], shape};
   }
 
   // The colours of exact_path, which are of all lights, without the half that rounds them.
@@ -258,9 +266,10 @@ class TriangleChain {
   std::vector<RowSpan> rows_;
   Color cue_color_ = Color::Zero();
   RowSpan row_;
-  const Color* exact_ = nullptr;  // of all pixels of the triangle, row by row
+  const Color* exact_ = nullptr;  // of all pixels of the triangle, row by row; or null, and then
+  std::optional<PhongTriangle> phong_;
   const Color* exact_of_row_ = nullptr;
-  std::vector<Color> own_exact_;  // what `exact_` points to, if no earlier frame left it
+  std::vector<Color> own_exact_;  // of the row, if `exact_` is null
   // Of a triangle of exact_path: its pixels, their values, and the first of the row.
   std::vector<RowSpan> exact_rows_;
   std::vector<Color> exact_values_;

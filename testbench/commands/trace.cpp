@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "model/files/text_file.h"
@@ -152,10 +153,12 @@ int trace(const TraceCommandOptions& options) {
     shown.resize(kMostWindows);
     shown.emplace_back("…");
   }
-  std::string text =
-      fmt::format("{}  {} cycles of {}, {} signals, {}\n", printable(options.file.string()),
-                  cycles_in(windows), recorded.frame_cycles, recorded.variables.size(),
-                  size_text(static_cast<double>(fs::file_size(options.file))));
+  const bool stopped = !recorded.failure.empty();
+  std::string text = fmt::format(
+      "{}  {}, {} signals, {}\n", printable(options.file.string()),
+      stopped ? std::string("not all cycles")
+              : fmt::format("{} cycles of {}", cycles_in(windows), recorded.frame_cycles),
+      recorded.variables.size(), size_text(static_cast<double>(fs::file_size(options.file))));
   text += fmt::format("  windows  cycles {} at {:.2f} ns a cycle\n", fmt::join(shown, ", "),
                       static_cast<double>(recorded.period_ps) / 1000);
   constexpr std::size_t kMostMarkers = 8;
@@ -164,16 +167,15 @@ int trace(const TraceCommandOptions& options) {
     text += fmt::format("  marker   {} in cycle {}\n", marker.name, marker.cycle);
   }
   if (recorded.markers.size() > kMostMarkers) {
-    text += fmt::format("           and {} more in the views\n",
-                        recorded.markers.size() - kMostMarkers);
+    text += fmt::format("           and {} more\n", recorded.markers.size() - kMostMarkers);
   }
   const std::string name = shell_word(printable(options.file.string()));
   text += fmt::format("  view     gtkwave {} {}   or   surfer {} -c {}\n", name,
                       shell_word(printable(gtkwave.string())), name,
                       shell_word(printable(surfer.string())));
-  if (!recorded.failure.empty()) text += fmt::format("  stopped  {}\n", recorded.failure);
+  if (stopped) text += fmt::format("  stopped  {}\n", recorded.failure);
   print_or_throw(text);
-  return recorded.failure.empty() ? 0 : kCheckFailed;
+  return stopped ? kCheckFailed : 0;
 }
 
 }  // namespace

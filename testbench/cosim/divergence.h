@@ -17,13 +17,14 @@ struct Divergence {
   std::int64_t cycle = 0;
   ShadedPixel model, found;
   bool missing = false;  // the implementation ended before this pixel
+  bool extra = false;    // the model ended before it; `model` is at the place of `found`
 
   static constexpr auto fields() {
     using D = Divergence;
     return std::make_tuple(field("stream_index", &D::stream_index), field("span", &D::span),
                            field("triangle", &D::triangle), field("cycle", &D::cycle),
                            field("model", &D::model), field("found", &D::found),
-                           field("missing", &D::missing));
+                           field("missing", &D::missing), field("extra", &D::extra));
   }
 };
 

@@ -102,7 +102,10 @@ Failure failure_of(const char* name, const ImplementationResult& found, std::uin
   if (found.first_divergence) {
     const Divergence& d = *found.first_divergence;
     const bool same_place = d.model.x == d.found.x && d.model.y == d.found.y;
-    what = d.missing ? "pixel missing" : same_place ? "color" : "position";
+    what = d.missing    ? "pixel missing"
+           : d.extra    ? "pixel too many"
+           : same_place ? "color"
+                        : "position";
   } else if (!found.counts.failure.empty()) {
     what = "stuck";
   }

@@ -49,26 +49,31 @@ bool StreamChecker::next(ShadedPixel& pixel) {
   return true;
 }
 
-void StreamChecker::record(const ShadedPixel& model, const ShadedPixel& found, std::int64_t cycle,
-                           bool missing) {
+void StreamChecker::record(Divergence difference) {
   ++mismatches_;
   if (first_) return;
-  first_ = Divergence{stream_index_, spans_ == 0 ? 0 : spans_ - 1, triangle_, cycle, model, found,
-                      missing};
+  difference.stream_index = stream_index_;
+  difference.span = spans_ == 0 ? 0 : spans_ - 1;
+  difference.triangle = triangle_;
+  first_ = difference;
 }
 
 void StreamChecker::observe(const ShadedPixel& pixel, std::int64_t cycle) {
   if (enough()) return;
-  ShadedPixel expected;
-  const bool more = next(expected);
-  if (!more || pixel != expected) record(expected, pixel, cycle, false);
+  Divergence difference;
+  difference.cycle = cycle;
+  difference.found = pixel;
+  difference.model = {pixel.x, pixel.y, 0};
+  difference.extra = !next(difference.model);
+  if (difference.extra || difference.model != pixel) record(difference);
   ++stream_index_;
 }
 
 void StreamChecker::finish(std::int64_t cycle) {
-  for (ShadedPixel expected; !enough() && next(expected); ++stream_index_) {
-    record(expected, {}, cycle, true);
-  }
+  Divergence difference;
+  difference.cycle = cycle;
+  difference.missing = true;
+  for (; !enough() && next(difference.model); ++stream_index_) record(difference);
 }
 
 }  // namespace phongpipe

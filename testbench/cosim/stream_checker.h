@@ -63,7 +63,8 @@ class StreamChecker {
  private:
   // The model's next pixel; false where it has no more.
   bool next(ShadedPixel& pixel);
-  void record(const ShadedPixel& model, const ShadedPixel& found, std::int64_t cycle, bool missing);
+  // Counts a difference at the current pixel of the stream, whose place in it is filled in.
+  void record(Divergence difference);
 
   SpanStream model_;
   int next_in_span_ = 0, span_length_ = 0;

@@ -25,6 +25,7 @@ struct Device {
   const char *card, *title, *device, *package;
   int most_lanes;  // with more, a design does not fit, or is not placed within minutes
 };
+// The largest first: what it takes, the others take, or less.
 constexpr Device kDevices[] = {{"ice40-hx8k", "Lattice iCE40-HX8K", "hx8k", "ct256", 4},
                                {"ice40-up5k", "Lattice iCE40-UP5K", "up5k", "sg48", 2}};
 
@@ -49,10 +50,10 @@ std::vector<DatapathConfiguration> configurations() {
     change(base);
     all.push_back(base);
   };
-  for (const int bits : {4, 8, 12, 20, 24, 30}) {
+  for (const int bits : {4, 8, 12, 20, 24, 26, 28, 30}) {
     add(paper, [&](auto& c) { c.diffuse_fraction_bits = bits; });
   }
-  for (const int bits : {10, 20, 24}) {
+  for (const int bits : {10, 20, 24, 27, 30}) {
     add(usual, [&](auto& c) { c.diffuse_fraction_bits = bits; });
   }
   for (const int bits : {4, 8, 18, 24}) {
@@ -67,7 +68,7 @@ std::vector<DatapathConfiguration> configurations() {
   for (const int bits : {9, 11}) {
     add(usual, [&](auto& c) { c.rom_address_bits = bits; });
   }
-  for (const int bits : {5, 6, 8}) {
+  for (const int bits : {2 * kSpecularGuardStep, 3 * kSpecularGuardStep}) {
     add(usual, [&](auto& c) { c.specular_guard_bits = bits; });
   }
   for (const int octaves : {1, 3}) {
@@ -111,15 +112,36 @@ std::vector<DatapathConfiguration> configurations() {
       add_kind(base, [](auto& c) { c.channels = 3; });
     }
     if (kind == DatapathKind::wide4) continue;
-    add_kind(paper, [](auto& c) { c.diffuse_fraction_bits = 24; });
-    if (kind == DatapathKind::wide2) continue;
-    add_kind(usual, [](auto& c) { c.depth_cue = true; });
+    for (const int bits : {20, 24, 28}) {
+      add_kind(paper, [&](auto& c) { c.diffuse_fraction_bits = bits; });
+    }
     add_kind(usual, [](auto& c) { c.gate = GateSource::series; });
-    add_kind(paper, [](auto& c) { c.specular = false; });
-    add_kind(paper, [](auto& c) {
-      c.depth_cue = true;
+    if (kind == DatapathKind::wide2) continue;
+    add_kind(usual, [](auto& c) {
+      c.gate = GateSource::series;
       c.channels = 3;
     });
+    for (const DatapathConfiguration& base : {usual, paper}) {
+      for (const int channels : {1, 3}) {
+        add_kind(base, [&](auto& c) {
+          c.depth_cue = true;
+          c.channels = channels;
+        });
+      }
+    }
+    for (const int channels : {1, 3}) {
+      for (const int bits : {paper.diffuse_fraction_bits, 24}) {
+        add_kind(paper, [&](auto& c) {
+          c.specular = false;
+          c.channels = channels;
+          c.diffuse_fraction_bits = bits;
+        });
+      }
+    }
+    for (const int bits : {8, 12, 13}) {
+      add_kind(paper, [&](auto& c) { c.rom_address_bits = bits; });
+    }
+    add_kind(usual, [](auto& c) { c.rom_address_bits = 9; });
   }
   return all;
 }
@@ -150,7 +172,10 @@ std::string design_text(const MeasuredDesign& d) {
       d.block_rams);
 }
 
-std::string card_text(const Device& device, const Designs& designs, const std::string& tools) {
+// `of_largest`: what was placed in the largest device, for all devices take as many LUTs and
+// registers.
+std::string card_text(const Device& device, const Designs& designs, const Designs& of_largest,
+                      const std::string& tools) {
   std::string text = fmt::format(
       "# {}. Written by scripts/synthesize.sh: datapaths between registers, {} seeds. "
       "clock_ns is\n"
@@ -163,20 +188,24 @@ std::string card_text(const Device& device, const Designs& designs, const std::s
   std::set<std::string_view> modules;
   for (const DatapathKindTraits& kind : kDatapathKinds) modules.insert(kind.rtl_module);
   for (const std::string_view module : modules) {
-    const auto add = [&](const char* name, auto member, const auto& features) {
+    // Fits one figure; too few designs cannot be left out one after the other.
+    const auto add = [&](const char* name, const Designs& known, auto member,
+                         const std::vector<std::string_view>& features) {
       std::vector<DatapathConfiguration> configurations;
       std::vector<double> values;
-      for (std::size_t i = 0; i < designs.measured.size(); ++i) {
-        if (traits(designs.configurations[i].kind).rtl_module != module) continue;
-        configurations.push_back(designs.configurations[i]);
-        values.push_back(static_cast<double>(designs.measured[i].*member));
+      for (std::size_t i = 0; i < known.measured.size(); ++i) {
+        if (traits(known.configurations[i].kind).rtl_module != module) continue;
+        configurations.push_back(known.configurations[i]);
+        values.push_back(static_cast<double>(known.measured[i].*member));
       }
-      if (values.size() <= features(module).size() + 1) return;  // too few to leave one out
-      text += model_text(module, name, fit_model(configurations, values, features(module)));
+      if (values.size() <= features.size() + 1) {
+        throw std::runtime_error(fmt::format("{}: too few designs of {}", device.card, module));
+      }
+      text += model_text(module, name, fit_model(configurations, values, features));
     };
-    add("clock_ns", &MeasuredDesign::clock_ns, clock_features);
-    add("luts", &MeasuredDesign::luts, area_features);
-    add("registers", &MeasuredDesign::registers, area_features);
+    add("clock_ns", designs, &MeasuredDesign::clock_ns, clock_features(module));
+    add("luts", of_largest, &MeasuredDesign::luts, area_features(module));
+    add("registers", of_largest, &MeasuredDesign::registers, area_features(module));
   }
   for (const MeasuredDesign& d : designs.measured) {
     text += "\n[[measured]]\n" + design_text(d);
@@ -229,8 +258,9 @@ void write_cards(const std::filesystem::path& folder) {
     }
   }
   for (const Device& device : kDevices) {
-    write_text(folder / fmt::format("{}.toml", device.card),
-               card_text(device, designs[device.card], synthesis_tools()));
+    write_text(
+        folder / fmt::format("{}.toml", device.card),
+        card_text(device, designs[device.card], designs[kDevices[0].card], synthesis_tools()));
   }
 }
 
@@ -250,7 +280,8 @@ void write_cards_again(const std::filesystem::path& folder, bool with_new_units)
     }
     constexpr std::string_view kBy = "routed by ";
     const std::string tools = card.source.substr(card.source.find(kBy) + kBy.size());
-    write_text(folder / fmt::format("{}.toml", device.card), card_text(device, designs, tools));
+    write_text(folder / fmt::format("{}.toml", device.card),
+               card_text(device, designs, all[kDevices[0].card], tools));
   }
 }
 

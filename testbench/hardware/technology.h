@@ -3,7 +3,6 @@
 // technologies hold one clock, which is assumed.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>

@@ -83,7 +83,8 @@ void report_implementation(Page& page, const char* name, const ImplementationRes
             fmt::format(
                 "triangle {}, x {}, y {}, cycle {}, span {}, pixel {} of the stream, seed {}",
                 d.triangle, d.model.x, d.model.y, d.cycle, d.span, d.stream_index, r.options.seed));
-  page.line("", fmt::format("model    {}", color_text(d.model.color, channels)));
+  page.line("", fmt::format("model    {}", d.extra ? std::string("ended before this pixel")
+                                                   : color_text(d.model.color, channels)));
   page.line("", fmt::format(
                     "{:<8} {}", name,
                     d.missing ? std::string("ended before this pixel")

@@ -82,11 +82,8 @@ std::vector<RtlTarget> missing_of(const std::vector<DatapathConfiguration>& conf
   return missing;
 }
 
-}  // namespace
-
-void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
-                       const RtlBuildOptions& options) {
-  const LibraryFiles files(options);
+void build_missing(const std::vector<DatapathConfiguration>& configurations,
+                   const LibraryFiles& files, const RtlBuildOptions& options) {
   std::vector<RtlTarget> missing = missing_of(configurations, files);
   if (missing.empty()) return;
   std::vector<fs::path> targets;
@@ -106,6 +103,13 @@ void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
   build_rtl(missing, files.sources(), options.build);
 }
 
+}  // namespace
+
+void build_missing_rtl(const std::vector<DatapathConfiguration>& configurations,
+                       const RtlBuildOptions& options) {
+  build_missing(configurations, LibraryFiles(options), options);
+}
+
 RtlLibrary::RtlLibrary(const DatapathConfiguration& configuration, const RtlBuildOptions& options) {
   load(configuration, options);
   if (interface_ != nullptr) return;
@@ -123,8 +127,9 @@ RtlLibrary::RtlLibrary(const DatapathConfiguration& configuration, const RtlBuil
 }
 
 void RtlLibrary::load(const DatapathConfiguration& configuration, const RtlBuildOptions& options) {
-  build_missing_rtl({configuration}, options);
-  file_ = LibraryFiles(options).file_of(configuration);
+  const LibraryFiles files(options);
+  build_missing({configuration}, files, options);
+  file_ = files.file_of(configuration);
   handle_ = dlopen(file_.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle_ == nullptr) {
     throw ToolError(fmt::format("{}; remove the file to have it built anew", printable(dlerror())));

@@ -25,19 +25,23 @@ Eigen::VectorXd without(const Eigen::VectorXd& all, Eigen::Index left_out) {
 
 std::vector<std::string_view> area_features(std::string_view module) {
   if (module == "pixel_datapath_wide") {
-    return {"constant", "lanes", "series_bits", "word_bits", "octave_address_bits"};
+    return {"constant", "lanes", "series_bits", "word_bits"};
   }
   if (module == "pixel_datapath_serial") {
-    return {"constant", "channels", "word_bits", "octave_address_bits", "depth_cue_channels"};
+    return {"constant",       "channels",  "specular",
+            "series_bits",    "bank_bits", "octave_address_bits",
+            "increment_bits", "depth_cue", "depth_cue_channels"};
   }
-  std::vector<std::string_view> names;
-  for (const auto& [name, value] : synthesis_features({})) names.push_back(name);
-  return names;
+  return {"constant",  "channels",    "series_bits",         "level_bits",
+          "word_bits", "bank_bits",   "octave_address_bits", "increment_bits",
+          "specular",  "gate_series", "depth_cue",           "depth_cue_channels"};
 }
 
+// Of the serial datapath, digits of 8 bits; of the wide ones, carries through whole series.
 std::vector<std::string_view> clock_features(std::string_view module) {
-  if (module != "pixel_datapath") return {"constant", "series_bits", "depth_cue_channels"};
-  return {"constant", "channels", "longest_low_carry_bits", "depth_cue", "depth_cue_channels"};
+  if (module == "pixel_datapath_serial") return {"constant", "depth_cue"};
+  if (module == "pixel_datapath_wide") return {"constant", "lanes", "widest_series_bits"};
+  return {"constant", "channels", "long_carry_bits", "specular", "depth_cue", "depth_cue_channels"};
 }
 
 FittedModel fit_model(const std::vector<DatapathConfiguration>& configurations,

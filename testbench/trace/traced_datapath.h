@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sim/datapath_registers.h"
@@ -96,7 +98,7 @@ class TracedDatapath {
   std::uint64_t since_ps_ = 0;  // the last edge, from which on the values are what they are
 };
 
-// All of a file.
+// All datapaths of a file.
 struct TracedDatapaths {
   std::vector<TracedDatapath> datapaths;
   bool complete = true;  // false: the file was cut

@@ -36,7 +36,7 @@ ProcessOutput verilator(const std::string& top, const Parameters& parameters) {
 }
 
 ProcessOutput iverilog(const std::string& top, const Parameters& parameters) {
-  // Without output: what iverilog writes it makes executable, /dev/null, too.
+  // No output file: iverilog makes what it writes executable, even /dev/null.
   std::vector<std::string> command = {"iverilog", "-g2012", "-Wall", "-I" + kFolder,
                                       "-s",       top,      "-t",    "null"};
   for (const auto& [name, value] : parameters) {

@@ -113,8 +113,10 @@ TEST_P(Watchdog, SeesAPixelAfterTheLast) {
   DatapathRegisters right(small_table());
   const std::size_t pixels = run(&right, 3000).stream.size();
   ASSERT_GT(pixels, 0U);
-  OneTooMany datapath(pixels);
-  EXPECT_EQ(run(&datapath, 3000).stream.size(), pixels + 1);
+  for (const int framebuffer_cycles : {1, 20}) {  // 20: the queue before it is full
+    OneTooMany datapath(pixels);
+    EXPECT_EQ(run(&datapath, 3000, framebuffer_cycles).stream.size(), pixels + 1);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Pipeline, Watchdog, testing::Values(Detail::span, Detail::cycle),

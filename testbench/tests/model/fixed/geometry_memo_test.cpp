@@ -13,6 +13,29 @@
 namespace phongpipe {
 namespace {
 
+TEST(GeometryMemo, ComputesOnceWhatThereIsRoomFor) {
+  GeometryMemo memo(3, 1, 3 * sizeof(Color) + sizeof(RowSpan));
+  int computed = 0;
+  const auto colors = [&](Color* first) {
+    ++computed;
+    first[0] = first[1] = Color(computed, 0, 0);
+  };
+  EXPECT_EQ(memo.exact_colors(0, 0, colors), nullptr);  // covers nothing
+  for (int i = 0; i < 2; ++i) {
+    const Color* const kept = memo.exact_colors(0, 2, colors);
+    ASSERT_NE(kept, nullptr);
+    EXPECT_EQ(kept[1][0], 1);
+    EXPECT_EQ(memo.exact_colors(1, 2, colors), nullptr);  // room for one more
+  }
+  EXPECT_EQ(computed, 1);
+  std::vector<RowSpan> rows;
+  const auto cover = [&](std::vector<RowSpan>& fresh) { fresh.assign(2, {++computed, 0, 1}); };
+  for (int i = 0; i < 2; ++i) memo.cover(0, rows, cover);
+  EXPECT_EQ(rows.front().x, 2);
+  for (int i = 0; i < 2; ++i) memo.cover(1, rows, cover);
+  EXPECT_EQ(rows.front().x, 4) << "kept without room";
+}
+
 TEST(GeometryMemo, FramesOfOneSceneAreAsIfEachWereAlone) {
   constexpr std::uint64_t kSeed = 17, kScenes = 12, kFrames = 8;
   SCOPED_TRACE(kSeed);
