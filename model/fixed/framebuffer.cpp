@@ -1,6 +1,7 @@
 #include "model/fixed/framebuffer.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <new>
 
@@ -19,20 +20,41 @@ std::uint32_t background_color(const FrameSetup& frame) {
   return color;
 }
 
+#if defined(__linux__)
+constexpr std::size_t kLargePage = std::size_t{2} << 20;
+
+// What is mapped for so many bytes: whole large pages, if at least half of the first is used.
+std::size_t mapped_bytes(std::size_t bytes) {
+  return bytes < kLargePage / 2 ? bytes : (bytes + kLargePage - 1) / kLargePage * kLargePage;
+}
+#endif
+
 // Zeros. Memory fresh from the system is zero without being touched; what the allocator gives a
 // second time is not. In large pages where the system has them: the first touch of a page takes
 // about as long as 1000 pixels do.
 void* zeros(std::size_t bytes) {
 #if defined(__linux__)
-  void* const memory =
-      mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) throw std::bad_alloc();
-  madvise(memory, bytes, MADV_HUGEPAGE);
+  const auto map = [](std::size_t size) {
+    void* const memory =
+        mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) throw std::bad_alloc();
+    return static_cast<char*>(memory);
+  };
+  if (bytes < kLargePage / 2) return map(bytes);
+  const std::size_t mapped = mapped_bytes(bytes);
+  // A large page begins at a multiple of its size.
+  char* const memory = map(mapped + kLargePage);
+  const std::size_t before = -reinterpret_cast<std::uintptr_t>(memory) % kLargePage;
+  char* const aligned = memory + before;
+  if (before > 0) munmap(memory, before);
+  munmap(aligned + mapped, kLargePage - before);
+  madvise(aligned, mapped, MADV_HUGEPAGE);
+  return aligned;
 #else
   void* const memory = std::calloc(bytes, 1);
   if (memory == nullptr) throw std::bad_alloc();
-#endif
   return memory;
+#endif
 }
 
 }  // namespace
@@ -54,7 +76,7 @@ Framebuffer::Framebuffer(const FrameSetup& frame, Owners owners)
 
 void Framebuffer::Free::operator()(void* memory) const {
 #if defined(__linux__)
-  munmap(memory, bytes);
+  munmap(memory, mapped_bytes(bytes));
 #else
   std::free(memory);
 #endif

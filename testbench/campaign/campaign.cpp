@@ -189,10 +189,13 @@ class Campaign {
   // Starts a worker with the next runs. Batches get smaller towards the end, so that all workers
   // end at about the same time.
   void start_worker() {
-    constexpr std::size_t kLargestBatch = 16, kMostTriangles = 100'000;
+    // RTL of a batch is compiled as one file; what runs have in common is computed once a batch.
+    constexpr std::size_t kMostNative = 16, kMostOthers = 64, kMostTriangles = 100'000;
     const std::size_t share = queue_.size() / (2 * jobs_);
+    const PendingRun& next = queue_.front();
+    const bool native = runs_[next.index].request.options.rtl == RtlToVerify::native;
     const std::size_t size =
-        queue_.front().alone ? 1 : std::clamp<std::size_t>(share, 1, kLargestBatch);
+        next.alone ? 1 : std::clamp<std::size_t>(share, 1, native ? kMostNative : kMostOthers);
     ActiveWorker active;
     std::vector<ResolvedRun> batch;
     std::size_t triangles = 0;
