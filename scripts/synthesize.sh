@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # synthesize.sh: places and routes the RTL in many configurations and writes the cards of the iCE40
-# devices in hw/technology (half an hour). synthesize.sh units: only the units of hw/units, the rest of
-# the cards stays (two minutes). synthesize.sh check: places and routes two presets and
+# devices in hw/technology (an hour). synthesize.sh units: only the units of hw/units, the rest of
+# the cards stays (three minutes). synthesize.sh check: places and routes two presets and
 # fails where one is slower or larger than its card says.
 set -euo pipefail
 cd "$(dirname "$0")/.."

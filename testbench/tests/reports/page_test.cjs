@@ -43,7 +43,12 @@ async function download(page, button) {
 }
 
 const count = (page, selector) => page.locator(selector).count();
-const rows = (page) => count(page, 'tbody tr');
+// Waits until the table has so many rows, for pages are drawn after the event.
+async function expectRows(page, expected) {
+  const rows = () => count(page, 'tbody tr');
+  for (let i = 0; i < 200 && await rows() !== expected; ++i) await page.waitForTimeout(50);
+  assert.strictEqual(await rows(), expected);
+}
 
 // The middle of an axis, and its ends.
 async function axis(page, name) {
@@ -67,7 +72,7 @@ const rom = 'datapath.rom_address_bits';
 const tests = {
   async 'draws every run that has measurements, and tells of the others'(page) {
     assert.strictEqual(await count(page, '#scatter .point'), 12);
-    assert.strictEqual(await rows(page), 15);
+    await expectRows(page, 15);
     assert.match(await page.textContent('#scatter-text'), /3 refused/);
     assert.match(await page.textContent('#summary'), /15 runs[^]*12 passed, 0 failed, 3 refused/);
     assert.ok(await count(page, '#scatter .front') > 0);
@@ -103,33 +108,28 @@ const tests = {
   async 'a brush on an axis filters points, table and CSV'(page) {
     const {x, top, bottom} = await axis(page, rom);
     await drag(page, x, top + 1, (top + bottom) / 2 - 4);  // 8 and 9 of 5 to 9
+    await expectRows(page, 6);
     assert.strictEqual(await count(page, '#scatter .point'), 6);
-    assert.strictEqual(await rows(page), 6);
     assert.match(await page.textContent('#count'), /6 of 15 runs/);
     const lines = (await download(page, '#csv')).trim().split('\n');
     assert.strictEqual(lines.length, 7);
     const at = lines[0].split(',').indexOf(rom);
     assert.ok(lines.slice(1).every((line) => ['8', '9'].includes(line.split(',')[at])));
     await page.mouse.dblclick(x, (top + bottom) / 2);
-    await page.waitForTimeout(100);
-    assert.strictEqual(await rows(page), 15);
+    await expectRows(page, 15);
     await drag(page, x, top + 1, (top + bottom) / 2 - 4);
-    assert.strictEqual(await rows(page), 6);
+    await expectRows(page, 6);
     await page.keyboard.press('Escape');
-    await page.waitForTimeout(100);
-    assert.strictEqual(await rows(page), 15);
+    await expectRows(page, 15);
   },
   async 'a filter is made and cleared by keyboard'(page) {
     await page.focus(`g.axis[data-name="${rom}"]`);
     for (let i = 0; i < 6; ++i) await page.keyboard.press('ArrowDown');
-    await page.waitForTimeout(100);
-    assert.strictEqual(await rows(page), 9);  // without 8 and 9
+    await expectRows(page, 9);  // without 8 and 9
     for (let i = 0; i < 6; ++i) await page.keyboard.press('Shift+ArrowUp');
-    await page.waitForTimeout(100);
-    assert.strictEqual(await rows(page), 3);
+    await expectRows(page, 3);
     await page.keyboard.press('Delete');
-    await page.waitForTimeout(100);
-    assert.strictEqual(await rows(page), 15);
+    await expectRows(page, 15);
   },
   async 'the table is sorted by its heads, by keyboard too'(page) {
     const column = async (name) => {
@@ -209,10 +209,10 @@ async function main() {
     const before = Date.now();
     const {page, close} = await open(browser, largeFile);
     assert.strictEqual(await count(page, '#scatter .point'), 10000);
-    assert.strictEqual(await rows(page), 200);
+    await expectRows(page, 200);
     console.log(`        drawn after ${Date.now() - before} ms`);
     await page.click('#more');
-    assert.strictEqual(await rows(page), 400);
+    await expectRows(page, 400);
     const {x, top, bottom} = await axis(page, rom);
     await drag(page, x, top + 1, (top + bottom) / 2);
     const left = await count(page, '#scatter .point');
@@ -237,7 +237,7 @@ async function main() {
     const {page, close} = await open(browser, crashedFile);
     assert.match(await page.textContent('#summary'), /0 passed, 0 failed, 0 refused, 15 crashed/);
     assert.ok(!await page.isVisible('#scatter'));
-    assert.strictEqual(await rows(page), 15);
+    await expectRows(page, 15);
     await page.locator('tbody button').first().click();
     assert.match(await page.textContent('#command'), /^phongpipe verify sphere/);
     await close();
@@ -256,7 +256,7 @@ async function main() {
   });
   await attempt('a page of verified scenes', async () => {
     const {page, close} = await open(browser, verifyFile);
-    assert.strictEqual(await rows(page), 2);
+    await expectRows(page, 2);
     assert.strictEqual(await count(page, '#scatter .front'), 0);
     await page.locator('tbody button').first().click();
     const images = page.locator('dialog[open] img');
