@@ -579,6 +579,9 @@
       }
       body.append(line);
     }
+    // Under a filter the page gets no shorter: it would scroll while the pointer drags.
+    const table = $('table');
+    table.style.minHeight = filters.size > 0 ? `${table.offsetHeight}px` : '';
     document.querySelector('tbody').replaceChildren(body);
     $('count').textContent = `${numberText(kept.length)} of ${counted(data.rows)}` +
         (kept.length > rowsShown ? `, the first ${rowsShown} shown` : '');
