@@ -9,6 +9,7 @@ namespace {
 
 std::vector<std::string_view> kind_names() {
   std::vector<std::string_view> names;
+  names.reserve(kDatapathKinds.size());
   for (const DatapathKindTraits& kind : kDatapathKinds) names.push_back(kind.name);
   return names;
 }
