@@ -277,11 +277,16 @@ class StoryTeller {
 // The cycle in which a pixel leaves an implementation, and its colour.
 using Exit = std::pair<std::int64_t, std::uint32_t>;
 
-// Of the story's pixel, one for each visit; SystemC's own datapath is used without a library.
-std::vector<Exit> exits_of(const FrameSetup& frame, const PixelStory& story,
-                           SimulationOptions options, const RtlLibrary* library) {
-  std::vector<Exit> exits;
-  options.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles, std::size_t count) {
+// All of one pixel, and why the simulation ended before the frame's end, if it did.
+using Exits = std::pair<std::vector<Exit>, std::string>;
+
+// Of the story's pixel; SystemC's own datapath is used without a library.
+Exits exits_of(const FrameSetup& frame, const PixelStory& story, SimulationOptions options,
+               const RtlLibrary* library) {
+  Exits result;
+  auto& [exits, failure] = result;
+  options.observe = [&exits = exits, &story](const ShadedPixel* pixels, const std::int64_t* cycles,
+                                             std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       if (pixels[i].x == story.x && pixels[i].y == story.y) {
         exits.emplace_back(cycles[i], pixels[i].color);
@@ -290,14 +295,8 @@ std::vector<Exit> exits_of(const FrameSetup& frame, const PixelStory& story,
   };
   std::optional<RtlDatapath> datapath;
   if (library != nullptr) options.datapath = &datapath.emplace(*library, frame.cue_color);
-  const SimulationResult simulated = simulate(frame, story.hardware.pipeline, options);
-  if (exits.size() == story.visits.size()) return exits;
-  const std::string& failure = simulated.failure;
-  throw ToolError(
-      fmt::format("{} delivers pixel {},{} {} times, the model {}{}; `phongpipe verify` tells "
-                  "where they differ",
-                  library == nullptr ? "SystemC" : "the RTL", story.x, story.y, exits.size(),
-                  story.visits.size(), failure.empty() ? "" : fmt::format(" ({})", failure)));
+  failure = simulate(frame, story.hardware.pipeline, options).failure;
+  return result;
 }
 
 }  // namespace
@@ -352,8 +351,19 @@ void add_cycles(const PreparedFrame& frame, const RtlLibrary& library,
     };
   };
   Child rtl(simulate_with(&library)), systemc(simulate_with(nullptr));
-  const auto from_systemc = from_bytes<std::vector<Exit>>(systemc.get());
-  const auto from_rtl = from_bytes<std::vector<Exit>>(rtl.get());
+  const auto wait_for = [&story](Child& child, const char* name) {
+    auto [exits, failure] = from_bytes<Exits>(child.get());
+    if (exits.size() != story.visits.size()) {
+      throw ToolError(fmt::format(
+          "{} delivers pixel {},{} {} times, the model {}{}; `phongpipe verify` tells where they "
+          "differ",
+          name, story.x, story.y, exits.size(), story.visits.size(),
+          failure.empty() ? "" : fmt::format(" ({})", failure)));
+    }
+    return exits;
+  };
+  const std::vector<Exit> from_systemc = wait_for(systemc, "SystemC");
+  const std::vector<Exit> from_rtl = wait_for(rtl, "the RTL");
   for (std::size_t i = 0; i < story.visits.size(); ++i) {
     PixelVisit& visit = story.visits[i];
     visit.systemc_cycle = from_systemc[i].first;
