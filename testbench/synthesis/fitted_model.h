@@ -15,8 +15,8 @@ FittedModel fit_model(const std::vector<DatapathConfiguration>& configurations,
                       const std::vector<double>& values,
                       const std::vector<std::string_view>& features);
 
-// Those for areas, which are all for pixel_datapath, of which most designs are known. A clock is
-// that of one path, and depends on less.
+// The features that the areas of a module are fitted to, and those for its clock: that of one path,
+// which depends on less.
 std::vector<std::string_view> area_features(std::string_view module);
 std::vector<std::string_view> clock_features(std::string_view module);
 
