@@ -37,6 +37,7 @@ DatapathRegisters::DatapathRegisters(const DatapathConfiguration& configuration,
 void DatapathRegisters::reset() {
   for (DatapathRegisters& lane : lanes_) lane.reset();
   before_lanes_ = {};
+  pixels_in_lanes_ = 0;
   for (DatapathPixel& pixel : stages_) pixel.valid = false;
   last_ = {};
   until_next_ = 0;
@@ -48,7 +49,7 @@ void DatapathRegisters::reset() {
 std::size_t DatapathRegisters::pixels_after(int stage) const {
   if (!lanes_.empty()) return wide_pixels_after(stage);
   std::size_t pixels = queue_.size() + (pixel_valid_ ? 1 : 0);
-  for (std::size_t clocks = clocks_to(stage) + 1; clocks < stages_.size(); ++clocks) {
+  for (int clocks = clocks_to(stage) + 1; clocks <= last_clock(); ++clocks) {
     pixels += after_clocks(clocks).valid ? 1 : 0;
   }
   return pixels;
@@ -157,7 +158,7 @@ DatapathOutputs DatapathRegisters::clock(const DatapathInputs& inputs) {
     queue_.pop_front();
   }
   pixel_valid_ = read || (pixel_valid_ && !inputs.pixel_ready);
-  const DatapathPixel& whole = after_clocks(stages_.size() - 1);
+  const DatapathPixel& whole = after_clocks(last_clock());
   if (whole.valid) queue_.push_back({whole.x, whole.y, whole.color});
   free_ += (left_ ? 1 : 0) - (in_stage(0).valid ? 1 : 0);
   left_ = leaves;
@@ -191,11 +192,10 @@ DatapathOutputs DatapathRegisters::clock(const DatapathInputs& inputs) {
 static Span span_of_lane(const Span& span, int k, int lanes) {
   Span own = span;
   if (k > 0) {
-    const int own_pixels = (span.row.length + lanes - 1 - k) / lanes;
-    own.row.x = -own_pixels & ((1 << kCoordinateBits) - 1);
+    own.row.x = -pixels_of_lane(span.row.length, k, lanes) & ((1 << kCoordinateBits) - 1);
     own.row.y = 0;
   }
-  own.row.length = (span.row.length + lanes - 1) / lanes;
+  own.row.length = pixels_of_lane(span.row.length, 0, lanes);
   const auto start = [&](const SeriesStart& series, bool stepping) {
     return lane_start(stepping ? series : SeriesStart{series.v, 0, 0}, k, lanes);
   };
@@ -207,6 +207,13 @@ static Span span_of_lane(const Span& span, int k, int lanes) {
 }
 
 std::size_t DatapathRegisters::wide_pixels_after(int stage) const {
+  if (stage < 0) {
+    std::size_t all = pixels_in_lanes_;
+    for (int later = stage + 1; later < 0; ++later) {
+      if (before_lanes(later)) all += static_cast<std::size_t>(before_lanes(later)->row.length);
+    }
+    return all;
+  }
   const DatapathRegisters& first = lanes_[0];
   int pixels = 0;
   if (first.pixel_valid_) {
@@ -248,6 +255,10 @@ DatapathOutputs DatapathRegisters::wide_clock(const DatapathInputs& inputs) {
       own.span = &span;
     }
     lanes_[k].clock(own);
+  }
+  if (taken) pixels_in_lanes_ += static_cast<std::size_t>(next->row.length);
+  if (before.pixel_valid && inputs.pixel_ready) {
+    pixels_in_lanes_ -= static_cast<std::size_t>(before.pixels());
   }
   if (!before.span_ready) return before;
   std::rotate(before_lanes_.begin(), before_lanes_.end() - 1, before_lanes_.end());

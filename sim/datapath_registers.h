@@ -72,12 +72,10 @@ class DatapathRegisters : public ClockedDatapath {
   const DatapathPixel& in_stage(int stage) const {
     return lanes_.empty() ? after_clocks(clocks_to(stage)) : lanes_[0].in_stage(stage);
   }
-  // Clocks from stage 0 to another one.
-  std::size_t clocks_to(int stage) const {
-    return static_cast<std::size_t>(stage < kWholeStage ? stage : stage + serial_clocks_);
-  }
+  // Clocks from stage 0 to another one; negative to one before the lanes.
+  int clocks_to(int stage) const { return stage < kWholeStage ? stage : stage + serial_clocks_; }
   // Pixels that entered before that of a stage, or before the one that will be next in it, and have
-  // not left.
+  // not left. Of a stage before the lanes: before the first pixel of its span.
   std::size_t pixels_after(int stage) const;
   // Pixels side by side in a stage that holds one.
   int pixels_in(int stage) const {
@@ -86,6 +84,11 @@ class DatapathRegisters : public ClockedDatapath {
   }
   // A datapath of a wide one.
   const DatapathRegisters& lane(std::size_t k) const { return lanes_[k]; }
+  // The span in a stage before the lanes of a wide datapath: -kLaneStages takes the input, -1 is
+  // before stage 0.
+  const std::optional<Span>& before_lanes(int stage) const {
+    return before_lanes_[static_cast<std::size_t>(stage + kLaneStages)];
+  }
   // Pixels that are known whole and wait in the queue, without the one at the output.
   std::size_t queued() const { return queue_.size(); }
   // Free slots of the queue, as RTL counts them.
@@ -106,9 +109,10 @@ class DatapathRegisters : public ClockedDatapath {
     void step(bool second);
   };
   // The pixel that was in stage 0 so many clocks ago.
-  const DatapathPixel& after_clocks(std::size_t clocks) const {
-    return stages_[(head_ + clocks) % stages_.size()];
+  const DatapathPixel& after_clocks(int clocks) const {
+    return stages_[(head_ + static_cast<std::size_t>(clocks)) % stages_.size()];
   }
+  int last_clock() const { return static_cast<int>(stages_.size()) - 1; }
   std::size_t wide_pixels_after(int stage) const;
   DatapathOutputs wide_outputs() const;
   DatapathOutputs wide_clock(const DatapathInputs& inputs);
@@ -128,6 +132,7 @@ class DatapathRegisters : public ClockedDatapath {
 
   std::vector<DatapathRegisters> lanes_;  // of a wide datapath; they hold what is below x_step_
   std::array<std::optional<Span>, kLaneStages> before_lanes_;  // spans, the last one goes on first
+  std::size_t pixels_in_lanes_ = 0;  // of spans that the lanes have taken, and not delivered
   int x_step_ = 1;
   DatapathConfiguration configuration_;
   OutputColor cue_color_;
@@ -148,6 +153,13 @@ class DatapathRegisters : public ClockedDatapath {
 
 // Where lane k of a wide datapath is, below pixel_datapath.
 std::string lane_scope(int k);
+// Of a span's pixels, how many lane k of `lanes` has.
+inline int pixels_of_lane(int length, int k, int lanes) {
+  return (length + lanes - 1 - k) / lanes;
+}
+
+// Unit of what lanes 1 and up of a wide datapath have in place of x, see hw/pixel_datapath_wide.sv.
+constexpr const char* kMinusPixelsToCome = "pixels of the lane still to come, negated";
 
 // A register of pixel_datapath: where it is in RTL and here, and how to read it. Waveforms, views,
 // comparisons of registers and the life of a pixel are made from these descriptions.
@@ -155,22 +167,20 @@ struct DatapathSignal {
   std::string
       scope;  // the block below pixel_datapath, as "color.specular.rom"; empty: pixel_datapath
   std::string name;         // as "s5_address"
-  int stage = 0;            // whose pixel it belongs to
+  int stage = 0;            // whose pixel it belongs to; negative: before the lanes
   bool always = false;      // of the control: has a meaning even if no pixel is in the stage
   bool only_first = false;  // has a meaning for the first pixel of a span only
   int width = 1;            // bits
   int fraction_bits = 0;    // of them, below one unit
   bool is_signed = false;
-  std::string unit;    // of the value: "LSB", "address" (of the table), or empty for a plain number
+  // Of the value: "LSB", "address" (of the table), kMinusPixelsToCome, or empty for a plain number.
+  std::string unit;
   int rtl_lsb = 0;     // the bit of the RTL's signal that the register begins at
   std::string packed;  // name of the RTL's signal, if it is packed with others
   std::function<std::int64_t(const DatapathRegisters&)> value;
 
   // Whether it has a meaning in this clock.
-  bool counts(const DatapathRegisters& registers) const {
-    const DatapathPixel& pixel = registers.in_stage(stage);
-    return always || (pixel.valid && (!only_first || pixel.step == 0));
-  }
+  bool counts(const DatapathRegisters& registers) const;
   // "pixel_datapath.color.specular.rom".
   std::string block() const;
   std::string full_name() const { return block() + "." + name; }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/datapath_registers.h"
+#include "sim/lane_start_signals.h"
 
 namespace phongpipe {
 
@@ -13,6 +14,13 @@ std::string DatapathSignal::block() const {
 
 std::string lane_scope(int k) {
   return fmt::format("lane[{}].datapath", k);
+}
+
+bool DatapathSignal::counts(const DatapathRegisters& registers) const {
+  if (always) return true;
+  if (stage < 0) return registers.before_lanes(stage).has_value();
+  const DatapathPixel& pixel = registers.in_stage(stage);
+  return pixel.valid && (!only_first || pixel.step == 0);
 }
 
 double DatapathSignal::real(std::int64_t bits) const {
@@ -378,10 +386,17 @@ class SignalTable {
 
 std::vector<DatapathSignal> datapath_signals(const DatapathConfiguration& configuration) {
   if (configuration.lanes() == 1) return SignalTable(configuration).all();
-  std::vector<DatapathSignal> all;
+  std::vector<DatapathSignal> all = lane_start_signals(configuration);
   for (int k = 0; k < configuration.lanes(); ++k) {
     for (DatapathSignal& signal : SignalTable(configuration).all()) {
       signal.scope = lane_scope(k) + (signal.scope.empty() ? "" : "." + signal.scope);
+      if (k > 0 && signal.name == "s1_x") {
+        signal.is_signed = true;
+        signal.unit = kMinusPixelsToCome;
+        signal.value = [x = std::move(signal.value)](const DatapathRegisters& r) {
+          return wrap_to(x(r), kCoordinateBits);
+        };
+      }
       signal.value = [value = std::move(signal.value), k](const DatapathRegisters& r) {
         return value(r.lane(static_cast<std::size_t>(k)));
       };

@@ -43,12 +43,14 @@ SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
   // Of a wide datapath, the lane and its pixel.
   const int lanes = configuration.lanes(), lane = story.step % lanes, step = story.step / lanes;
   const auto in_lane = [&](const DatapathSignal& signal) {
-    return lanes == 1 || starts_with(signal.scope, lane_scope(lane));
+    return lanes == 1 || !starts_with(signal.scope, "lane[") ||
+           starts_with(signal.scope, fmt::format("lane[{}]", lane));
   };
   const int start = configuration.lane_stages();
   const int entrance = start + step * configuration.interval_cycles();
   const auto has_start = [&](int stage) {
-    return configuration.kind == DatapathKind::serial ? stage <= kWholeStage : stage == 1;
+    return configuration.kind == DatapathKind::serial ? stage <= kWholeStage
+                                                      : stage == 1 || stage < 0;
   };
   for (int clock = 0; clock < entrance + configuration.latency_cycles(); ++clock) {
     registers.clock(inputs);
@@ -58,11 +60,14 @@ SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
       story.pixel = (lanes == 1 ? registers : registers.lane(own)).in_stage(0);
     }
     for (const DatapathSignal& signal : signals) {
-      const int entered = clock - static_cast<int>(registers.clocks_to(signal.stage));
+      const int entered = clock - registers.clocks_to(signal.stage);
       if (signal.always || (signal.only_first && entered != start) || !in_lane(signal)) continue;
-      if (entered == start && has_start(signal.stage))
+      if (entered == start && has_start(signal.stage)) {
         story.start.push_back({signal, signal.value(registers)});
-      if (entered == entrance) story.registers.push_back({signal, signal.value(registers)});
+      }
+      if (entered == entrance && signal.stage >= 0) {
+        story.registers.push_back({signal, signal.value(registers)});
+      }
     }
   }
   for (std::size_t c = 0; c < static_cast<std::size_t>(configuration.channels); ++c) {
