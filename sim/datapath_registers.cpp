@@ -23,11 +23,13 @@ DatapathRegisters::DatapathRegisters(const DatapathConfiguration& configuration,
     lanes_[0].x_step_ = configuration.lanes();
     return;
   }
-  const ForwardDifferencer diffuse(configuration.diffuse_width());
-  for (Stepper& stepper : diffuse_) stepper.now = diffuse;
-  specular_.now = ForwardDifferencer(configuration.specular_width());
-  gate_.now = diffuse;
-  cue_.now = ForwardDifferencer(kCueWidth);
+  const auto set_width = [&](Stepper& stepper, int width) {
+    stepper.set_width(width, is_serial() ? configuration.serial_digits() * kDigitBits : width);
+  };
+  for (Stepper& stepper : diffuse_) set_width(stepper, configuration.diffuse_width());
+  set_width(specular_, configuration.specular_width());
+  set_width(gate_, configuration.diffuse_width());
+  set_width(cue_, kCueWidth);
   if (!configuration.specular) return;
   for (std::size_t c = 0; c < channels(); ++c) {
     table_[c].resize(static_cast<std::size_t>(configuration.rom_words()));
@@ -49,7 +51,7 @@ void DatapathRegisters::reset() {
 std::size_t DatapathRegisters::pixels_after(int stage) const {
   if (!lanes_.empty()) return wide_pixels_after(stage);
   std::size_t pixels = queue_.size() + (pixel_valid_ ? 1 : 0);
-  for (int clocks = clocks_to(stage) + 1; clocks <= last_clock(); ++clocks) {
+  for (int clocks = clocks_since_entry(stage) + 1; clocks <= last_clock(); ++clocks) {
     pixels += after_clocks(clocks).valid ? 1 : 0;
   }
   return pixels;
@@ -61,9 +63,36 @@ DatapathOutputs DatapathRegisters::outputs() const {
   return {free_ > 0 && until_next_ == 0 && open, pixel_valid_, output_, 0, {}};
 }
 
+int DatapathRegisters::clocks_since_entry(int stage) const {
+  const int first = clocks_to(stage);
+  if (!is_serial() || stage < 1 || stage >= kWholeStage) return first;
+  // A digit a clock: the first one comes to stage 1 as the pixel enters.
+  for (int clocks = first - 1; clocks < first - 1 + configuration_.interval_cycles(); ++clocks) {
+    if (after_clocks(clocks).valid) return clocks;
+  }
+  return first - 1;
+}
+
+void DatapathRegisters::Stepper::set_width(int register_width, int sum_width) {
+  width = register_width;
+  now = ForwardDifferencer(sum_width);
+}
+
 void DatapathRegisters::Stepper::load(const SeriesStart& start, bool stepping) {
   now.load({start.v, stepping ? start.d1 : 0, stepping ? start.d2 : 0});
-  pixel = {now.v(), now.d1(), now.d2(), now.v(), now.v()};
+  const std::int64_t v = wrap_to(now.v(), width);
+  pixel = {v, now.d1(), now.d2(), v, v, {}};
+  pixel.serial.d2 = start.d2;
+  set_serial_words();
+}
+
+void DatapathRegisters::Stepper::set_serial_words() {
+  DatapathPixel::SerialWords& words = pixel.serial;
+  words.v = now.v();
+  words.d1 = now.d1();
+  words.next_v = wrap_add(words.v, words.d1);
+  words.read_d1 = words.next_d1;
+  words.next_d1 = wrap_add(words.d1, words.d2);
 }
 
 void DatapathRegisters::Stepper::step(bool second) {
@@ -71,7 +100,8 @@ void DatapathRegisters::Stepper::step(bool second) {
   pixel.next_term = now.d2();
   pixel.difference = now.d1();
   now.step();
-  pixel.v = now.v();
+  pixel.v = wrap_to(now.v(), width);
+  set_serial_words();
 }
 
 void DatapathRegisters::load(const Span& span) {
@@ -82,6 +112,8 @@ void DatapathRegisters::load(const Span& span) {
   last_.remaining = span.row.length;
   last_.highlight = span.highlight;
   last_.first_pass = span.first_pass;
+  last_.step_diffuse = span.step_diffuse;
+  last_.step_specular = span.step_specular;
   for (std::size_t c = 0; c < channels(); ++c) {
     last_.level[c] = wrap_to(span.level[c], configuration_.diffuse_width());
     diffuse_[c].load(span.diffuse[c], span.step_diffuse);

@@ -36,11 +36,17 @@ struct DatapathPixel {
   std::uint16_t x = 0, y = 0;
   int step = 0;       // in its span, from 0
   int remaining = 0;  // pixels of its span, itself among them
-  bool highlight = false, first_pass = false;
+  bool highlight = false, first_pass = false, step_diffuse = false, step_specular = false;
   std::array<std::int64_t, 3> level = {};
 
+  // Of the serial datapath, in whole digits; see hw/serial_differencer.sv. d1 is 0 if the series
+  // does not step. read_d1 is what the memory has for it.
+  struct SerialWords {
+    std::int64_t v = 0, d1 = 0, d2 = 0, read_d1 = 0, next_v = 0, next_d1 = 0;
+  };
   struct Series {  // see hw/forward_differencer.sv
     std::int64_t term = 0, next_term = 0, last_term = 0, difference = 0, v = 0;
+    SerialWords serial;
   };
   std::array<Series, 3> diffuse;
   Series specular, gate, cue;
@@ -68,9 +74,16 @@ class DatapathRegisters : public ClockedDatapath {
   // The outputs in this clock, before its edge.
   DatapathOutputs outputs() const;
 
-  // Of a wide datapath: of its first lane; all lanes are in step.
+  // Of a wide datapath: of its first lane; all lanes are in step. The serial datapath has a pixel
+  // in stages 1 and 2 for interval_cycles() clocks, a digit after the other.
   const DatapathPixel& in_stage(int stage) const {
-    return lanes_.empty() ? after_clocks(clocks_to(stage)) : lanes_[0].in_stage(stage);
+    return lanes_.empty() ? after_clocks(clocks_since_entry(stage)) : lanes_[0].in_stage(stage);
+  }
+  // Which digit of its pixel stage 1 or 2 of the serial datapath has: series · digits + digit.
+  int digit_in(int stage) const { return clocks_since_entry(stage) - clocks_to(stage) + 1; }
+  // Which digit the serial datapath reads in this clock: 0 if it waits for a pixel.
+  int next_digit() const {
+    return until_next_ == 0 ? 0 : configuration_.interval_cycles() - until_next_;
   }
   // Clocks from stage 0 to another one; negative to one before the lanes.
   int clocks_to(int stage) const { return stage < kWholeStage ? stage : stage + serial_clocks_; }
@@ -103,11 +116,17 @@ class DatapathRegisters : public ClockedDatapath {
  private:
   // A series at the pixel that entered last.
   struct Stepper {
-    ForwardDifferencer now;
+    int width = 0;           // of the register
+    ForwardDifferencer now;  // of the serial datapath: of whole digits
     DatapathPixel::Series pixel;
+    void set_width(int register_width, int sum_width);
     void load(const SeriesStart& start, bool stepping);
     void step(bool second);
+    void set_serial_words();
   };
+  bool is_serial() const { return configuration_.kind == DatapathKind::serial; }
+  // Of the pixel in a stage.
+  int clocks_since_entry(int stage) const;
   // The pixel that was in stage 0 so many clocks ago.
   const DatapathPixel& after_clocks(int clocks) const {
     return stages_[(head_ + static_cast<std::size_t>(clocks)) % stages_.size()];
@@ -161,17 +180,21 @@ inline int pixels_of_lane(int length, int k, int lanes) {
 // Unit of what lanes 1 and up of a wide datapath have in place of x, see hw/pixel_datapath_wide.sv.
 constexpr const char* kMinusPixelsToCome = "pixels of the lane still to come, negated";
 
+// When a register has a meaning: in every clock, as those of the control; or while a pixel is in
+// its stage, and it is the first of its span or not.
+enum class Meaning { always, every_pixel, first_pixel, further_pixels };
+
 // A register of pixel_datapath: where it is in RTL and here, and how to read it. Waveforms, views,
 // comparisons of registers and the life of a pixel are made from these descriptions.
 struct DatapathSignal {
   std::string
       scope;  // the block below pixel_datapath, as "color.specular.rom"; empty: pixel_datapath
-  std::string name;         // as "s5_address"
-  int stage = 0;            // whose pixel it belongs to; negative: before the lanes
-  bool always = false;      // of the control: has a meaning even if no pixel is in the stage
-  bool only_first = false;  // has a meaning for the first pixel of a span only
-  int width = 1;            // bits
-  int fraction_bits = 0;    // of them, below one unit
+  std::string name;  // as "s5_address"
+  int stage = 0;     // whose pixel it belongs to; negative: before the lanes
+  Meaning meaning = Meaning::every_pixel;
+  bool of_digit = false;  // of the serial datapath: changes while its pixel is in the stage
+  int width = 1;          // bits
+  int fraction_bits = 0;  // of them, below one unit
   bool is_signed = false;
   // Of the value: "LSB", "address" (of the table), kMinusPixelsToCome, or empty for a plain number.
   std::string unit;

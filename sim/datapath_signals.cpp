@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/datapath_registers.h"
+#include "sim/digit_signals.h"
 #include "sim/lane_start_signals.h"
 
 namespace phongpipe {
@@ -17,10 +18,11 @@ std::string lane_scope(int k) {
 }
 
 bool DatapathSignal::counts(const DatapathRegisters& registers) const {
-  if (always) return true;
+  if (meaning == Meaning::always) return true;
   if (stage < 0) return registers.before_lanes(stage).has_value();
   const DatapathPixel& pixel = registers.in_stage(stage);
-  return pixel.valid && (!only_first || pixel.step == 0);
+  return pixel.valid && (meaning == Meaning::every_pixel ||
+                         (meaning == Meaning::first_pixel) == (pixel.step == 0));
 }
 
 double DatapathSignal::real(std::int64_t bits) const {
@@ -52,6 +54,7 @@ class SignalTable {
     add_specular();
     for (int c = 0; c < f_.channels; ++c) add_light(c);
     if (f_.depth_cue) add_cueing();
+    if (serial_) add_digits();
     sort_by_stage(signals_);
     return std::move(signals_);
   }
@@ -92,7 +95,7 @@ class SignalTable {
     const auto valid = [](const Pixel& p) { return p.valid; };
     if (serial_) add(0, "", "s0_valid", 1, valid);
     add_flag(serial_ ? kWholeStage : 0, stages_ - 1, "", "valid", valid);
-    for (DatapathSignal& signal : signals_) signal.always = true;
+    for (DatapathSignal& signal : signals_) signal.meaning = Meaning::always;
     if (!serial_) {
       add_flag(0, 3, "", "first", [](const Pixel& p) { return p.step == 0; });
       add_flag(1, 2, "", "restart", [](const Pixel& p) { return p.step <= 1; });
@@ -102,14 +105,15 @@ class SignalTable {
     add(0, control, "ending", 1, [](const Pixel& p) { return p.remaining == 2; });
     DatapathSignal& open = add(0, control, "open", 1, [](const Pixel&) { return 0; });
     open.value = [](const DatapathRegisters& r) -> std::int64_t { return r.between_spans(); };
-    open.always = true;
+    open.meaning = Meaning::always;
     const auto add_count = [this](int stage, const char* name, auto count) {
       DatapathSignal signal;
       signal.scope = "queue";
       signal.name = name;
       signal.stage = stage;
       signal.width = kPixelQueueBits + 1;
-      signal.always = signal.is_signed = true;
+      signal.meaning = Meaning::always;
+      signal.is_signed = true;
       signal.value = [count](const DatapathRegisters& r) {
         return -static_cast<std::int64_t>(count(r));
       };
@@ -117,6 +121,17 @@ class SignalTable {
     };
     add_count(0, "minus_free", [](const DatapathRegisters& r) { return r.free_slots(); });
     add_count(stages_ - 1, "minus_colors", [](const DatapathRegisters& r) { return r.queued(); });
+  }
+
+  // What a span keeps while the digits of its pixels are read, and these digits.
+  void add_digits() {
+    add(0, "", "s0_step_diffuse", 1, [](const Pixel& p) { return p.step_diffuse; });
+    if (f_.specular) {
+      add(0, "", "s0_step_specular", 1, [](const Pixel& p) { return p.step_specular; });
+      add(0, "", "s0_highlight", 1, [](const Pixel& p) { return p.highlight; });
+    }
+    if (f_.depth_cue) add(0, "", "s0_first_pass", 1, [](const Pixel& p) { return p.first_pass; });
+    for (DatapathSignal& signal : digit_signals(f_)) signals_.push_back(std::move(signal));
   }
 
   void add_span() {
@@ -159,7 +174,7 @@ class SignalTable {
       return;
     }
     whole(0, "start_v", &Series::term);
-    signals_.back().only_first = true;
+    signals_.back().meaning = Meaning::first_pixel;
     whole(1, "term", &Series::term);
     whole(1, "next_term", &Series::next_term);
     whole(1, "last_term", &Series::last_term);

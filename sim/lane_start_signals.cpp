@@ -48,7 +48,7 @@ class LaneStartTable {
     signal.scope = scope;
     signal.name = name;
     signal.stage = stage;
-    signal.only_first = true;
+    signal.meaning = Meaning::first_pixel;
     signal.width = width;
     signal.value = [stage, value](const DatapathRegisters& registers) {
       const std::optional<Span>& span = registers.before_lanes(stage);
@@ -90,8 +90,7 @@ class LaneStartTable {
     DatapathSignal& held = add(number, "", at(number, "held"), 1, [](const Span&) { return 1; });
     held.packed = "held";
     held.rtl_lsb = number - 1;
-    held.only_first = false;
-    held.always = true;
+    held.meaning = Meaning::always;
   }
 
   void add_place() {

@@ -61,7 +61,9 @@ SpanStory run_span(const FrameSetup& frame, const Span& span, int x) {
     }
     for (const DatapathSignal& signal : signals) {
       const int entered = clock - registers.clocks_to(signal.stage);
-      if (signal.always || (signal.only_first && entered != start) || !in_lane(signal)) continue;
+      const bool of_pixel = signal.meaning == Meaning::every_pixel ||
+                            (signal.meaning == Meaning::first_pixel && entered == start);
+      if (!of_pixel || signal.of_digit || !in_lane(signal)) continue;
       if (entered == start && has_start(signal.stage)) {
         story.start.push_back({signal, signal.value(registers)});
       }

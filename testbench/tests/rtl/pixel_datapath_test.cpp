@@ -305,7 +305,7 @@ void compare_registers(const DatapathConfiguration& configuration, const RtlLibr
     if (systemc.clock(inputs).span_ready) inputs.span = nullptr;
   }
   for (std::size_t i = 0; i < signals.size(); ++i) {
-    EXPECT_GT(compared[i], signals[i].only_first ? 200U : 1'000U) << signals[i].full_name();
+    EXPECT_GT(compared[i], signals[i].meaning == Meaning::first_pixel ? 200U : 1'000U) << signals[i].full_name();
   }
 }
 
