@@ -45,6 +45,7 @@ void DatapathRegisters::reset() {
   until_next_ = 0;
   queue_.clear();
   free_ = kPixelQueueSlots;
+  slots_ = {};
   left_ = pixel_valid_ = false;
 }
 
@@ -81,8 +82,7 @@ void DatapathRegisters::Stepper::set_width(int register_width, int sum_width) {
 void DatapathRegisters::Stepper::load(const SeriesStart& start, bool stepping) {
   now.load({start.v, stepping ? start.d1 : 0, stepping ? start.d2 : 0});
   const std::int64_t v = wrap_to(now.v(), width);
-  pixel = {v, now.d1(), now.d2(), v, v, {}};
-  pixel.serial.d2 = start.d2;
+  pixel = {v, now.d1(), now.d2(), v, v, start, {}};
   set_serial_words();
 }
 
@@ -92,7 +92,7 @@ void DatapathRegisters::Stepper::set_serial_words() {
   words.d1 = now.d1();
   words.next_v = wrap_add(words.v, words.d1);
   words.read_d1 = words.next_d1;
-  words.next_d1 = wrap_add(words.d1, words.d2);
+  words.next_d1 = wrap_add(words.d1, pixel.start.d2);
 }
 
 void DatapathRegisters::Stepper::step(bool second) {
@@ -192,6 +192,12 @@ DatapathOutputs DatapathRegisters::clock(const DatapathInputs& inputs) {
   pixel_valid_ = read || (pixel_valid_ && !inputs.pixel_ready);
   const DatapathPixel& whole = after_clocks(last_clock());
   if (whole.valid) queue_.push_back({whole.x, whole.y, whole.color});
+  const auto advance = [](int& slot, bool used) {
+    slot = (slot + (used ? 1 : 0)) % kPixelQueueSlots;
+  };
+  advance(slots_.place, in_stage(is_serial() ? 0 : 1).valid);
+  advance(slots_.color, whole.valid);
+  advance(slots_.read, read);
   free_ += (left_ ? 1 : 0) - (in_stage(0).valid ? 1 : 0);
   left_ = leaves;
 

@@ -42,10 +42,11 @@ struct DatapathPixel {
   // Of the serial datapath, in whole digits; see hw/serial_differencer.sv. d1 is 0 if the series
   // does not step. read_d1 is what the memory has for it.
   struct SerialWords {
-    std::int64_t v = 0, d1 = 0, d2 = 0, read_d1 = 0, next_v = 0, next_d1 = 0;
+    std::int64_t v = 0, d1 = 0, read_d1 = 0, next_v = 0, next_d1 = 0;
   };
   struct Series {  // see hw/forward_differencer.sv
     std::int64_t term = 0, next_term = 0, last_term = 0, difference = 0, v = 0;
+    SeriesStart start;  // of the span, whether the series steps or not
     SerialWords serial;
   };
   std::array<Series, 3> diffuse;
@@ -106,6 +107,14 @@ class DatapathRegisters : public ClockedDatapath {
   std::size_t queued() const { return queue_.size(); }
   // Free slots of the queue, as RTL counts them.
   int free_slots() const { return free_; }
+  // Slots of the queue that are next.
+  int place_slot() const { return slots_.place; }
+  int color_slot() const { return slots_.color; }
+  int read_slot() const { return slots_.read; }
+  // Whether a pixel left in the clock before.
+  bool left() const { return left_; }
+  // What is added to x from pixel to pixel.
+  int x_step() const { return x_step_; }
   // Whether the next pixel that enters is of another span.
   bool between_spans() const { return last_.remaining <= 1; }
   // Words of a channel's table.
@@ -165,7 +174,10 @@ class DatapathRegisters : public ClockedDatapath {
   Stepper specular_, gate_, cue_;
   std::deque<ShadedPixel> queue_;
   int free_ = kPixelQueueSlots;
-  bool left_ = false;  // a pixel, in the clock before
+  struct Slots {
+    int place = 0, color = 0, read = 0;
+  } slots_;
+  bool left_ = false;
   bool pixel_valid_ = false;
   ShadedPixel output_;
 };
@@ -211,8 +223,8 @@ struct DatapathSignal {
   double real(std::int64_t bits) const;
 };
 
-// The registers of a configuration that pixels pass through, stage by stage. Left out are the s0_
-// registers of what does not reach the next stage in every span, and those of the write ports.
+// The registers of a configuration, stage by stage. Left out are memories, registers of the tables'
+// write port, and those at the output, which are compared as ports.
 std::vector<DatapathSignal> datapath_signals(const DatapathConfiguration& configuration);
 
 }  // namespace phongpipe

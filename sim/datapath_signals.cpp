@@ -99,6 +99,8 @@ class SignalTable {
     if (!serial_) {
       add_flag(0, 3, "", "first", [](const Pixel& p) { return p.step == 0; });
       add_flag(1, 2, "", "restart", [](const Pixel& p) { return p.step <= 1; });
+      add(0, "", "after_first", 1, [](const Pixel& p) { return p.step == 1; }).meaning =
+          Meaning::further_pixels;
     }
     const char* const control = "control";
     add(0, control, "remaining", kLengthBits, [](const Pixel& p) { return p.remaining; });
@@ -106,21 +108,31 @@ class SignalTable {
     DatapathSignal& open = add(0, control, "open", 1, [](const Pixel&) { return 0; });
     open.value = [](const DatapathRegisters& r) -> std::int64_t { return r.between_spans(); };
     open.meaning = Meaning::always;
-    const auto add_count = [this](int stage, const char* name, auto count) {
-      DatapathSignal signal;
-      signal.scope = "queue";
-      signal.name = name;
-      signal.stage = stage;
-      signal.width = kPixelQueueBits + 1;
+    add_queue();
+  }
+
+  void add_queue() {
+    const int last = stages_ - 1;
+    const auto add_counter = [this](int stage, const char* name, int width, auto count) {
+      DatapathSignal& signal = add(stage, "queue", name, width, [](const Pixel&) { return 0; });
       signal.meaning = Meaning::always;
-      signal.is_signed = true;
-      signal.value = [count](const DatapathRegisters& r) {
-        return -static_cast<std::int64_t>(count(r));
-      };
-      signals_.push_back(std::move(signal));
+      signal.value = [count](const DatapathRegisters& r) -> std::int64_t { return count(r); };
     };
-    add_count(0, "minus_free", [](const DatapathRegisters& r) { return r.free_slots(); });
-    add_count(stages_ - 1, "minus_colors", [](const DatapathRegisters& r) { return r.queued(); });
+    const auto add_negated = [&](int stage, const char* name, auto count) {
+      add_counter(stage, name, kPixelQueueBits + 1, [count](const DatapathRegisters& r) {
+        return -static_cast<std::int64_t>(count(r));
+      });
+      signals_.back().is_signed = true;
+    };
+    add_negated(0, "minus_free", [](const DatapathRegisters& r) { return r.free_slots(); });
+    add_negated(last, "minus_colors", [](const DatapathRegisters& r) { return r.queued(); });
+    add_counter(serial_ ? 0 : 1, "place_slot", kPixelQueueBits,
+                [](const DatapathRegisters& r) { return r.place_slot(); });
+    add_counter(last, "color_slot", kPixelQueueBits,
+                [](const DatapathRegisters& r) { return r.color_slot(); });
+    add_counter(last, "read_slot", kPixelQueueBits,
+                [](const DatapathRegisters& r) { return r.read_slot(); });
+    add_counter(0, "left", 1, [](const DatapathRegisters& r) { return r.left(); });
   }
 
   // What a span keeps while the digits of its pixels are read, and these digits.
@@ -136,6 +148,7 @@ class SignalTable {
 
   void add_span() {
     const int place = serial_ ? 0 : 1;
+    if (!serial_) add_input();
     add(place, "", at(place, "x"), kCoordinateBits, [](const Pixel& p) { return p.x; });
     add(place, "", at(place, "y"), kCoordinateBits, [](const Pixel& p) { return p.y; });
     for (int c = 0; c < f_.channels; ++c) {
@@ -150,9 +163,36 @@ class SignalTable {
     }
   }
 
-  // `of`: the series of a pixel.
-  template <typename Of>
-  void add_series(const std::string& scope, const char* unit, int width, int fraction_bits, Of of) {
+  // What was at the input in the clock in which a span was taken.
+  void add_input() {
+    DatapathSignal& x_term =
+        add(0, "", "s0_x_term", kCoordinateBits, [](const Pixel& p) { return p.x; });
+    x_term.value = [](const DatapathRegisters& r) -> std::int64_t {
+      const Pixel& p = r.in_stage(0);
+      return p.step == 0 ? p.x : r.x_step();
+    };
+    int lsb = 0;
+    const auto add_kept = [&](const std::string& scope, const char* name, int width, auto value) {
+      DatapathSignal& signal = add(0, "of_span" + scope, name, width, value);
+      signal.meaning = Meaning::first_pixel;
+      signal.packed = "s0_start";
+      signal.rtl_lsb = lsb;
+      lsb += width;
+    };
+    for (int c = 0; c < f_.channels; ++c) {
+      add_kept(fmt::format(".channel[{}]", c), "s0_level", f_.diffuse_width(),
+               [c](const Pixel& p) { return p.level[static_cast<std::size_t>(c)]; });
+      in_units(signals_.back(), "LSB", f_.diffuse_fraction_bits, true);
+    }
+    add_kept("", "s0_first_pass", 1, [](const Pixel& p) { return p.first_pass; });
+    add_kept("", "s0_highlight", 1, [](const Pixel& p) { return p.highlight; });
+    add_kept("", "s0_y", kCoordinateBits, [](const Pixel& p) { return p.y; });
+  }
+
+  // `of`: the series of a pixel. `stepping`: whether it steps along the span.
+  template <typename Of, typename Stepping>
+  void add_series(const std::string& scope, const char* unit, int width, int fraction_bits, Of of,
+                  Stepping stepping) {
     const auto whole = [&](int stage, const char* name, std::int64_t Series::*part) {
       in_units(add(stage, scope, at(stage, name), width,
                    [of, part](const Pixel& p) { return of(p).*part; }),
@@ -173,8 +213,17 @@ class SignalTable {
       whole(kSeriesStage, "v", &Series::v);
       return;
     }
-    whole(0, "start_v", &Series::term);
-    signals_.back().meaning = Meaning::first_pixel;
+    // Terms of the first pixel, at the input.
+    const auto add_start = [&](const std::string& block, const char* name, auto value) {
+      in_units(add(0, block, name, width,
+                   [of, value, width](const Pixel& p) { return wrap_to(value(of(p)), width); }),
+               unit, fraction_bits, true);
+      signals_.back().meaning = Meaning::first_pixel;
+    };
+    add_start(scope, "s0_start_v", [](const Series& s) { return s.start.v; });
+    add_start(scope, "s0_start_d1", [](const Series& s) { return s.start.d1; });
+    add_start(scope + ".last_term", "s0_start", [](const Series& s) { return s.last_term; });
+    add(0, scope, "s0_stepping", 1, stepping).meaning = Meaning::first_pixel;
     whole(1, "term", &Series::term);
     whole(1, "next_term", &Series::next_term);
     whole(1, "last_term", &Series::last_term);
@@ -197,23 +246,28 @@ class SignalTable {
   }
   void add_all_series() {
     for (int c = 0; c < f_.channels && f_.diffuse; ++c) {
-      add_series(fmt::format("channel[{}].diffuse.diffuse_series", c), "LSB", f_.diffuse_width(),
-                 f_.diffuse_fraction_bits, [c](const Pixel& p) -> const Series& {
-                   return p.diffuse[static_cast<std::size_t>(c)];
-                 });
+      add_series(
+          fmt::format("channel[{}].diffuse.diffuse_series", c), "LSB", f_.diffuse_width(),
+          f_.diffuse_fraction_bits,
+          [c](const Pixel& p) -> const Series& { return p.diffuse[static_cast<std::size_t>(c)]; },
+          [](const Pixel& p) { return p.step_diffuse; });
     }
     if (f_.specular) {
-      add_series("specular.specular_series", "address", f_.specular_width(),
-                 f_.specular_fraction_bits,
-                 [](const Pixel& p) -> const Series& { return p.specular; });
+      add_series(
+          "specular.specular_series", "address", f_.specular_width(), f_.specular_fraction_bits,
+          [](const Pixel& p) -> const Series& { return p.specular; },
+          [](const Pixel& p) { return p.step_specular; });
     }
     if (f_.has_gate_series()) {
-      add_series("gate.gate_series", "LSB", f_.diffuse_width(), f_.diffuse_fraction_bits,
-                 [](const Pixel& p) -> const Series& { return p.gate; });
+      add_series(
+          "gate.gate_series", "LSB", f_.diffuse_width(), f_.diffuse_fraction_bits,
+          [](const Pixel& p) -> const Series& { return p.gate; },
+          [](const Pixel& p) { return p.step_diffuse; });
     }
     if (f_.depth_cue) {
-      add_series("cueing.cue_series", "", kCueWidth, kCueFraction,
-                 [](const Pixel& p) -> const Series& { return p.cue; });
+      add_series(
+          "cueing.cue_series", "", kCueWidth, kCueFraction,
+          [](const Pixel& p) -> const Series& { return p.cue; }, [](const Pixel&) { return true; });
     }
   }
 
@@ -228,6 +282,7 @@ class SignalTable {
       const std::string gate = kSpecular + ".gate";
       add(5, gate, "s5_negative", 1, [](const Pixel& p) { return p.gate.v < 0; });
       add(5, gate, "s5_zero", 1, [](const Pixel& p) { return p.gate.v == 0; });
+      add(6, kSpecular, "s6_facing", 1, [](const Pixel& p) { return p.gate.v > 0; });
     }
     if (f_.rom_layout == RomLayout::plain) {
       add_plain_table();
@@ -309,6 +364,11 @@ class SignalTable {
     const std::string scope = fmt::format("{}.channel[{}].summation", kColor, channel);
     const auto c = static_cast<std::size_t>(channel);
     const int width = f_.diffuse_width(), low = low_bits(width);
+    if (!f_.diffuse) {
+      in_units(add(4, fmt::format("{}.channel[{}]", kColor, channel), "s4_light", width,
+                   [c](const Pixel& p) { return p.level[c]; }),
+               "LSB", f_.diffuse_fraction_bits, true);
+    }
     add(4, scope, "s4_level_complement", width - 1, [c, width](const Pixel& p) {
       return ~p.level[c] & ((std::int64_t{1} << (width - 1)) - 1);
     });
@@ -357,25 +417,63 @@ class SignalTable {
         return p.cue_factor;
       }).fraction_bits = kCueFactorBits;
     }
-    for (int channel = 0; channel < f_.channels; ++channel) {
-      const std::string scope = fmt::format("{}.channel[{}].multiplier", cueing, channel);
-      const auto c = static_cast<std::size_t>(channel);
-      const int own_stage = kSumStage + 1;
-      in_units(add(own_stage, scope, at(own_stage, "own"), kGuardBits + kOutputBits + 2,
-                   [c](const Pixel& p) { return p.own[c]; }),
-               "LSB", 0, true);
-      // With the half that rounds it.
-      const int product_stage = stages_ - 2;
-      in_units(add(product_stage, scope, at(product_stage, "product"),
-                   kGuardBits + kOutputBits + 2 + kCueFactorBits,
-                   [c](const Pixel& p) {
-                     return std::int64_t{p.own[c]} * p.cue_factor + (1 << (kCueFactorBits - 1));
-                   }),
-               "LSB", kCueFactorBits, true);
-      add(stages_ - 1, scope, at(stages_ - 1, "color"), kOutputBits, [c](const Pixel& p) {
-        return p.color >> (c * kOutputBits) & kOutputMax;
+    for (int channel = 0; channel < f_.channels; ++channel) add_multiplier(channel);
+  }
+
+  // hw/depth_cue.sv: products of pairs of the factor's bits, and their sums.
+  void add_multiplier(int channel) {
+    const std::string scope = fmt::format("{}.cueing.channel[{}].multiplier", kColor, channel);
+    const auto c = static_cast<std::size_t>(channel);
+    constexpr int kOwnBits = kGuardBits + kOutputBits + 2;
+    constexpr int kPartBits = kOwnBits + 2, kProductBits = kOwnBits + kCueFactorBits;
+    constexpr int kParts = (kCueFactorBits + 2) / 2, kPairs = kParts / 2;
+    constexpr int kHalf = 1 << (kCueFactorBits - 1);  // that rounds
+    const auto own = [c](const Pixel& p) { return std::int64_t{p.own[c]}; };
+    // The product with `count` bits of the factor, from bit `lsb` on, in its place.
+    const auto partial = [own](const Pixel& p, int lsb, int count) {
+      return own(p) * (p.cue_factor & ((1 << count) - 1) << lsb);
+    };
+    int stage = kSumStage + 1;
+    for (int later = stage; later < stages_ - 1; ++later) {
+      add(later, scope, at(later, "cue"), kOutputBits, [c](const Pixel& p) {
+        return p.sum[c] - p.own[c];
       }).unit = "LSB";
     }
+    in_units(add(stage, scope, at(stage, "own"), kOwnBits, own), "LSB", 0, true);
+    add(stage, scope, at(stage, "factor"), 2 * kParts, [](const Pixel& p) {
+      return p.cue_factor;
+    }).fraction_bits = kCueFactorBits;
+    // Words side by side in one signal of RTL.
+    const auto add_word = [&](const char* name, int i, int width, int fraction_bits, auto value) {
+      DatapathSignal& word =
+          add(stage, scope, fmt::format("{}_{}", at(stage, name), i), width, value);
+      in_units(word, "LSB", fraction_bits, true);
+      word.packed = at(stage, name) + "s";
+      word.rtl_lsb = i * width;
+    };
+    ++stage;
+    for (int i = 0; i < kParts; ++i) {
+      add_word("part", i, kPartBits, kCueFactorBits - 2 * i,
+               [partial, i](const Pixel& p) { return partial(p, 2 * i, 2) >> 2 * i; });
+    }
+    ++stage;
+    for (int i = 0; i < kPairs; ++i) {
+      add_word("pair", i, kProductBits, kCueFactorBits,
+               [partial, i](const Pixel& p) { return partial(p, 4 * i, 4); });
+    }
+    ++stage;
+    add_word("sum", 0, kProductBits, kCueFactorBits,
+             [partial](const Pixel& p) { return partial(p, 0, 8); });
+    add_word("sum", 1, kProductBits, kCueFactorBits,
+             [partial](const Pixel& p) { return partial(p, 8, 4) + kHalf; });
+    ++stage;
+    in_units(add(stage, scope, at(stage, "product"), kProductBits,
+                 [own](const Pixel& p) { return own(p) * p.cue_factor + kHalf; }),
+             "LSB", kCueFactorBits, true);
+    ++stage;
+    add(stage, scope, at(stage, "color"), kOutputBits, [c](const Pixel& p) {
+      return p.color >> (c * kOutputBits) & kOutputMax;
+    }).unit = "LSB";
   }
 
   // What a span keeps for all its pixels, until color_pipeline has it.

@@ -18,8 +18,8 @@ class DigitTable {
     add(1, "s1_first", 1, [](const DatapathRegisters& r) { return r.in_stage(1).step == 0; });
     // From the memory. Of a span's first pixel the digits are at the port instead.
     add_word("s1_word", 1, &Words::v, &Words::read_d1, Meaning::further_pixels);
-    add_carry("v_carry", &Words::v, &Words::d1);
-    add_carry("d1_carry", &Words::d1, &Words::d2);
+    add_carry("v_carry", &Words::next_v, &Words::v);
+    add_carry("d1_carry", &Words::next_d1, &Words::d1);
     add_place(2, "s2_place");
     add_word("s2_word", 2, &Words::next_v, &Words::next_d1, Meaning::every_pixel);
     return std::move(signals_);
@@ -106,11 +106,12 @@ class DigitTable {
     }
   }
 
-  // What the digits before that of stage 1 carry into the sum of two words.
-  void add_carry(const char* name, std::int64_t Words::*a, std::int64_t Words::*b) {
+  // What the digits before that of stage 1 carry: theirs of the sum are less than those of what was
+  // added.
+  void add_carry(const char* name, std::int64_t Words::*sum, std::int64_t Words::*added) {
     add(1, name, 1, [=, words = words_in(1), below = bits_below(1)](const DatapathRegisters& r) {
       const std::int64_t mask = (std::int64_t{1} << below(r)) - 1;
-      return ((words(r).*a & mask) + (words(r).*b & mask)) >> below(r);
+      return (words(r).*sum & mask) < (words(r).*added & mask);
     });
   }
 

@@ -51,7 +51,7 @@ struct FrameContext {
     if (options.stall_percent == 0) return cycles;
     const std::uint32_t random = scramble(stream_index * 2654435769U + options.stall_seed);
     const bool stalled = random % 100 < static_cast<std::uint32_t>(options.stall_percent);
-    return cycles + (stalled ? 1 + (random >> 16) % 8 : 0);
+    return cycles + (stalled ? 1 + (random >> 16) % kMostStallCycles : 0);
   }
 
   void record(const ShadedPixel* pixels, const Cycle* cycles, std::size_t count) {

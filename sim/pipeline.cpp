@@ -1,5 +1,6 @@
 #include "sim/pipeline.h"
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
@@ -72,6 +73,15 @@ void simulate_by_clock(FrameContext& context) {
 }
 
 }  // namespace
+
+int slowest_output_cycles(const PipelineConfiguration& configuration,
+                          const SimulationOptions& options) {
+  // A queue of one pixel takes the next one only when it is empty, see pixel_timing.h.
+  const int slowest =
+      std::max({configuration.framebuffer_write_cycles, configuration.framebuffer_test_cycles,
+                configuration.framebuffer_add_cycles, configuration.pixel_fifo < 2 ? 2 : 1});
+  return slowest + (options.stall_percent > 0 ? kMostStallCycles : 0);
+}
 
 void stop_simulation() {
   static bool stopped = false;  // one simulation a process

@@ -25,11 +25,14 @@ namespace phongpipe {
 
 enum class Detail { span, cycle };
 
+constexpr int kMostStallCycles = 8;
+
 struct SimulationOptions {
   Detail detail = Detail::span;
   // The implementation behind the ports of pixel_datapath; null: the SystemC module's own values.
   ClockedDatapath* datapath = nullptr;
-  // Random back-pressure: the framebuffer takes 1 to 8 cycles more for this share of pixels.
+  // Random back-pressure: the framebuffer takes 1 to kMostStallCycles cycles more for this share of
+  // pixels.
   int stall_percent = 0;
   std::uint32_t stall_seed = 1;
   // Called with the pixels as they leave pixel_datapath, and the cycle of each. The result then
@@ -105,6 +108,11 @@ struct SimulationResult : SimulationCounts {
 
 // Simulates one frame. SystemC elaborates once per process: a second call throws std::logic_error.
 SimulationResult simulate(const FrameSetup& frame, const PipelineConfiguration& configuration,
+                          const SimulationOptions& options);
+
+// Cycles from a pixel that leaves pixel_datapath to the next one while that waits for the
+// framebuffer, at most. If it is 1, none waits: each leaves `latency_cycles()` after it entered.
+int slowest_output_cycles(const PipelineConfiguration& configuration,
                           const SimulationOptions& options);
 
 // Ends the simulation soon; for `observe` and for a ClockedDatapath, which may be called some more.

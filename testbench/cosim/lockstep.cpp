@@ -194,12 +194,6 @@ std::optional<SignalDivergence> find_in_span(const FrameSetup& frame, RtlDatapat
   return found;
 }
 
-// Whether pixels leave the datapath in the frame as they do in a span alone.
-bool output_never_waits(const PipelineConfiguration& pipeline, const SimulationOptions& options) {
-  return options.stall_percent == 0 && pipeline.framebuffer_write_cycles == 1 &&
-         pipeline.framebuffer_test_cycles == 1 && pipeline.framebuffer_add_cycles == 1;
-}
-
 }  // namespace
 
 std::optional<SignalDivergence> find_signal_divergence(
@@ -213,7 +207,7 @@ std::optional<SignalDivergence> find_signal_divergence(
       const std::unique_ptr<RtlDatapath> rtl = make_rtl();
       found = find_in_span(frame, *rtl, *pixel);
     }
-    if (!found || !output_never_waits(pipeline, simulation)) {
+    if (!found || slowest_output_cycles(pipeline, simulation) > 1) {
       const std::unique_ptr<RtlDatapath> rtl = make_rtl();
       std::optional<std::uint64_t> stream_index;
       if (pixel) stream_index = pixel->stream_index;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 
 #include "model/fixed/model_frame.h"
 #include "model/scene/input_error.h"
@@ -45,10 +46,15 @@ std::vector<CycleWindow> joined(std::vector<CycleWindow> windows, std::int64_t f
 // Looks at every pixel of the stream for the target.
 class WindowFinder {
  public:
-  WindowFinder(const PreparedFrame& frame, const TraceTarget& target)
-      : target_(target), whole_(frame.subdivision().whole), spans_(frame.setup) {}
+  WindowFinder(const PreparedFrame& frame, const TraceTarget& target, int slowest_output_cycles)
+      : target_(target),
+        whole_(frame.subdivision().whole),
+        latency_(frame.setup.configuration.latency_cycles()),
+        spans_(frame.setup),
+        slowest_output_cycles_(slowest_output_cycles) {}
 
-  void observe(const ShadedPixel& pixel, std::int64_t cycle, int latency) {
+  void observe(const ShadedPixel& pixel, std::int64_t cycle) {
+    add_leaving(cycle);
     if (left_in_span_ == 0) {
       if (!spans_.next()) return;
       left_in_span_ = spans_.span().row.length;
@@ -57,7 +63,7 @@ class WindowFinder {
     --left_in_span_;
     const std::array<int, 2> place = {pixel.x, pixel.y};
     const auto& pixels = target_.pixels;
-    const CycleWindow window = {cycle - latency - target_.margin_cycles,
+    const CycleWindow window = {entered_from_ - target_.margin_cycles,
                                 cycle + target_.margin_cycles};
     if (std::find(pixels.begin(), pixels.end(), place) != pixels.end()) windows_.push_back(window);
     const bool in_triangle =
@@ -72,9 +78,28 @@ class WindowFinder {
   std::int64_t last_span() const { return span_; }
 
  private:
+  // Pixels that leave in one cycle left a wide datapath together.
+  void add_leaving(std::int64_t cycle) {
+    if (!leaving_.empty() && leaving_.back() == cycle) return;
+    // A pixel that waits for the framebuffer leaves soon after the one before it.
+    const bool waits = slowest_output_cycles_ > 1 && !leaving_.empty() &&
+                       cycle - leaving_.back() <= slowest_output_cycles_;
+    if (!waits) entered_from_ = cycle - latency_;
+    leaving_.push_back(cycle);
+    if (leaving_.size() <= kMostInside) return;
+    // A pixel enters after that has left which is so many places before it.
+    entered_from_ = std::max(entered_from_, leaving_.front());
+    leaving_.pop_front();
+  }
+
+  static constexpr std::size_t kMostInside = kPixelQueueSlots + 1;
   const TraceTarget& target_;
   const std::vector<std::uint32_t>& whole_;
+  std::int64_t latency_;
   SpanStream spans_;
+  int slowest_output_cycles_;
+  std::deque<std::int64_t> leaving_;  // cycles in which the last kMostInside pixels left
+  std::int64_t entered_from_ = 0;     // in which the last one entered, at the earliest
   int left_in_span_ = 0;
   std::int64_t span_ = -1;
   std::vector<CycleWindow> windows_;
@@ -107,11 +132,10 @@ std::vector<CycleWindow> find_windows(const PreparedFrame& frame, const Hardware
                                       const TraceTarget& target, const TraceOptions& options) {
   Child child([&] {
     SimulationOptions simulation = options.simulation;
-    WindowFinder finder(frame, target);
-    const int latency = frame.setup.configuration.latency_cycles();
+    WindowFinder finder(frame, target, slowest_output_cycles(hardware.pipeline, simulation));
     simulation.observe = [&](const ShadedPixel* pixels, const std::int64_t* cycles,
                              std::size_t count) {
-      for (std::size_t i = 0; i < count; ++i) finder.observe(pixels[i], cycles[i], latency);
+      for (std::size_t i = 0; i < count; ++i) finder.observe(pixels[i], cycles[i]);
     };
     FoundWindows found;
     found.frame_cycles = simulate(frame.setup, hardware.pipeline, simulation).frame_cycles;

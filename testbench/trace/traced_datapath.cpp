@@ -36,7 +36,7 @@ const std::map<std::string, int>& stages_of_signals() {
                                                      {RomLayout::bipartite, kMostAddressBits}};
     const auto add_signals = [&] {
       for (const DatapathSignal& signal : datapath_signals(everything)) {
-        if (signal.meaning == Meaning::first_pixel || signal.of_digit) continue;
+        if (signal.meaning != Meaning::every_pixel || signal.of_digit) continue;
         stages.emplace(signal.full_name(), signal.stage);
         // Words that are packed with those of other stages are no signals of a pixel.
         const bool of_one_stage =

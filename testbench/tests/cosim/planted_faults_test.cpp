@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "model/fixed/prepared_frame.h"
@@ -16,8 +17,23 @@
 namespace phongpipe {
 namespace {
 
-constexpr int kWordStage = 8;  // in which words of the table are first seen
-constexpr int kNoStage = -kLaneStages - 1;
+constexpr int kWordStage = 8;            // in which words of the table are first seen
+constexpr int kPort = -kLaneStages - 1;  // in place of a stage
+
+// Registers and memories that are in no table of registers, by block and name, and where a fault in
+// them is seen.
+const std::map<std::string, int> kSeenAt = {{"queue.places", kPort},
+                                            {"queue.colors", kPort},
+                                            {"queue.pixel_valid", kPort},
+                                            {"queue.pixel_place", kPort},
+                                            {"queue.pixel_color", kPort},
+                                            {"differencer.places", 1},
+                                            {"rom.new_word", kWordStage},
+                                            {"plain.new_place", kWordStage},
+                                            {"octave.new_place", kWordStage},
+                                            {"octave.write_base", kWordStage},
+                                            {"second_table.new_increment_place", kWordStage},
+                                            {"second_table.write_increment", kWordStage}};
 
 struct Fault {
   std::string scope, name;  // of the RTL's signal
@@ -126,6 +142,17 @@ class PlantedFaults : public testing::Test {
         }
       }
     }
+    for (const RtlSignalView& signal : inside.all()) {
+      const std::string name = signal.scope.substr(signal.scope.rfind('.') + 1) + "." + signal.name;
+      const auto seen = kSeenAt.find(name);
+      if (seen == kSeenAt.end()) continue;
+      for (const int bit : std::set<int>{0, signal.width - 1}) {
+        for (const bool value : {false, true}) {
+          plant({signal.scope, signal.name, signal.elements / 9, bit, value},
+                signal.scope + "." + signal.name, seen->second);
+        }
+      }
+    }
     RecordProperty("planted", planted);
     RecordProperty("shown", shown);
     fmt::print("{} of {} faults change the picture, {} of these are named at their stage\n{}",
@@ -139,7 +166,7 @@ class PlantedFaults : public testing::Test {
     for (const DatapathSignal& signal : signals_) {
       if (signal.block() == found.block && signal.name == found.signal) return signal.stage;
     }
-    return kNoStage;  // a port
+    return kPort;
   }
 
   Hardware hardware_;

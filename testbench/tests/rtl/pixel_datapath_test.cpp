@@ -4,12 +4,17 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <random>
+#include <regex>
+#include <set>
 
 #include "sim/datapath_registers.h"
 #include "testbench/cases/random_datapath.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/rtl/rtl_signals.h"
+#include "testbench/system/installation.h"
 
 namespace phongpipe {
 namespace {
@@ -305,7 +310,8 @@ void compare_registers(const DatapathConfiguration& configuration, const RtlLibr
     if (systemc.clock(inputs).span_ready) inputs.span = nullptr;
   }
   for (std::size_t i = 0; i < signals.size(); ++i) {
-    EXPECT_GT(compared[i], signals[i].meaning == Meaning::first_pixel ? 200U : 1'000U) << signals[i].full_name();
+    EXPECT_GT(compared[i], signals[i].meaning == Meaning::first_pixel ? 200U : 1'000U)
+        << signals[i].full_name();
   }
 }
 
@@ -318,6 +324,52 @@ TEST(PixelDatapathRegisters, AreThoseOfSystemCInEveryClock) {
     SCOPED_TRACE(name_of(configuration));
     compare_registers(configuration, RtlLibrary(configuration, options));
   }
+}
+
+// What SystemVerilog assigns in a clocked block: names on the left of <=.
+std::set<std::string> registers_of(const std::filesystem::path& sources) {
+  std::set<std::string> names;
+  const std::regex assignment(R"((\{[\w, ]+\}|\w+)(\[[^\]]*\])*\s*<=)"), word(R"(\w+)");
+  for (const auto& entry : std::filesystem::directory_iterator(sources)) {
+    if (entry.path().extension() != ".sv") continue;
+    std::ifstream in(entry.path());
+    for (std::string line; std::getline(in, line);) {
+      line.resize(std::min(line.size(), line.find("//")));
+      std::smatch match;
+      if (!std::regex_search(line, match, assignment)) continue;
+      const std::string left = match[1];
+      for (std::sregex_iterator i(left.begin(), left.end(), word), end; i != end; ++i) {
+        names.insert(i->str());
+      }
+    }
+  }
+  return names;
+}
+
+// A register that the table of signals forgets would be named late when it fails, and would be no
+// word with its weights in traces.
+TEST(PixelDatapathRegisters, AreAllInTheTableOfSignals) {
+  const std::set<std::string> left_out = {
+      // Memories, and what they give to the output; both are compared there.
+      "places", "colors", "pixel_valid", "pixel_place", "pixel_color", "table_words",
+      "table_increments",
+      // Of the table's write port; words are compared in the table.
+      "new_word", "new_place", "new_increment_place", "write_bank", "write_base", "write_increment",
+      // Described under the names of wires: s1_last_term, s1_y and the like; s3_v; s8_words and
+      // s8_increments.
+      "value", "digits", "s8_word", "s8_increment"};
+  const std::set<std::string> registers = registers_of(installation().hardware);
+  EXPECT_GT(registers.size(), 100U);
+  std::set<std::string> described;
+  for (const DatapathConfiguration& configuration : configurations()) {
+    for (const DatapathSignal& signal : datapath_signals(configuration)) {
+      described.insert(signal.packed.empty() ? signal.name : signal.packed);
+    }
+  }
+  for (const std::string& name : registers) {
+    EXPECT_EQ(described.count(name) + left_out.count(name), 1U) << name;
+  }
+  for (const std::string& name : left_out) EXPECT_EQ(registers.count(name), 1U) << name;
 }
 
 INSTANTIATE_TEST_SUITE_P(Configurations, PixelDatapathRtl, ::testing::ValuesIn(configurations()),

@@ -225,12 +225,10 @@ TEST(PixelStory, AgreesWithThePictureForRandomPixels) {
                     (light.span->row.length + lanes - 1) / lanes - light.span->step / lanes);
         }
       }
-      // All stages, but for three inside the multiplier of depth cueing, and 1 and 2, which the
-      // serial datapath has not.
+      // All stages, but for 1 and 2 of the serial datapath, which has only digits there.
       const bool serial = story.configuration.kind == DatapathKind::serial;
-      EXPECT_EQ(static_cast<int>(stages.size()), datapath_stages(story.configuration) -
-                                                     (story.configuration.depth_cue ? 3 : 0) -
-                                                     (serial ? 2 : 0));
+      EXPECT_EQ(static_cast<int>(stages.size()),
+                datapath_stages(story.configuration) - (serial ? 2 : 0));
       const auto& start = light.span->start;
       const auto x = std::find_if(start.begin(), start.end(), [&](const RegisterValue& value) {
         return value.signal.name == (serial ? "s0_x" : "s1_x");

@@ -102,6 +102,26 @@ TEST_F(Traces, APixelIsInItsWindowWithItsColor) {
   EXPECT_LT(fs::file_size(folder_ / "a.vcd"), 200'000U);
 }
 
+// A pixel may wait longer than the margin before it leaves.
+TEST_F(Traces, TheWindowBeginsBeforeThePixelUnderBackPressure) {
+  int longest_wait = 0;
+  for (const auto& [x, y] : {std::pair(30, 31), std::pair(40, 30), std::pair(30, 50)}) {
+    TraceTarget target = pixel(x, y);
+    target.margin_cycles = 0;
+    TraceOptions options;
+    options.simulation.stall_percent = 60;
+    const RecordedTrace trace = record(target, "a.fst", options);
+    ASSERT_EQ(trace.markers.size(), 2U);
+    EXPECT_EQ(trace.markers[0].name, fmt::format("enters {},{}", x, y));
+    EXPECT_LE(windows_.at(0).first, trace.markers[0].cycle);
+    EXPECT_EQ(windows_.at(0).last, trace.markers[1].cycle);
+    longest_wait =
+        std::max(longest_wait, static_cast<int>(trace.markers[1].cycle - trace.markers[0].cycle) -
+                                   frame_.setup.configuration.latency_cycles());
+  }
+  EXPECT_GT(longest_wait, 0);
+}
+
 TEST_F(Traces, AWindowIsPartOfTheWholeTraceInBothFormats) {
   record(whole_frame(), "whole.fst");
   TraceTarget target;
