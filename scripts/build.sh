@@ -3,6 +3,7 @@
 # compiler's output only when it fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+[ $# -ge 2 ] || exec scripts/usage.sh "$0" "$@"
 folder=$1 target=$2
 shift 2
 log=$folder/build.log

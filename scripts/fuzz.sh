@@ -4,10 +4,7 @@
 # covered, findings. Inputs that were worth keeping are added to build-fuzz/corpus/TARGET.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-if [ $# -lt 1 ]; then
-  sed -n '2,4s/^# //p' "$0" >&2
-  exit 2
-fi
+case "${1:-}" in "" | *[!0-9]*) exec scripts/usage.sh "$0" "$@" ;; esac
 seconds=$1
 shift
 scripts/install.sh fuzz

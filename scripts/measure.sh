@@ -3,6 +3,7 @@
 # Benchmarks take turns, seven each, and medians are compared, for machines are never quite idle.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+[ $# -eq 0 ] || exec scripts/usage.sh "$0" "$@"
 scripts/install.sh
 scripts/build.sh build all -DCMAKE_BUILD_TYPE=Release
 csv=$(mktemp -d)

@@ -3,10 +3,11 @@
 # out/. Exits with the status of `phongpipe verify`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+[ $# -eq 0 ] || exec scripts/usage.sh "$0" "$@"
 scripts/install.sh
 scripts/build.sh build program -DCMAKE_BUILD_TYPE=Release
 mkdir -p out
 status=0
 build/bin/phongpipe verify teapot pawn --out out --json out/verify.json || status=$?
-echo "Look at out/: teapot-result.png, teapot-error.png, pawn-result.png, pawn-error.png, verify.json"
+echo "Look at out/: verify.html, teapot-result.png, teapot-error.png, pawn-result.png, pawn-error.png, verify.json"
 exit $status

@@ -5,6 +5,7 @@
 # fails where one is slower or larger than its card says.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+case "${1:-}" in "" | units | check) ;; *) exec scripts/usage.sh "$0" "$@" ;; esac
 scripts/install.sh synthesis
 scripts/build.sh build synthesize_cards
 if [ "${1:-}" = check ]; then

@@ -4,6 +4,7 @@
 # Node and playwright-core; NODE_PATH may tell where the latter is.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+case "${1:-}" in -*) exec scripts/usage.sh "$0" "$@" ;; esac
 missing=()
 for package in chromium nodejs npm python3; do
   command -v "${package/nodejs/node}" >/dev/null || missing+=("$package")

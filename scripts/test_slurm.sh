@@ -3,6 +3,7 @@
 # an array of shards, one of them requeued while it runs, gives the results of a sweep in one process.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+[ $# -eq 0 ] || exec scripts/usage.sh "$0" "$@"
 packages=(slurm-wlm munge)
 dpkg-query -W "${packages[@]}" >/dev/null 2>&1 || {
   echo "installing ${packages[*]}"

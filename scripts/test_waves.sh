@@ -3,6 +3,7 @@
 # shown with its binary point, and as the value that the trace holds.
 set -euo pipefail
 cd "$(dirname "$0")/.."
+[ $# -eq 0 ] || exec scripts/usage.sh "$0" "$@"
 trap 'echo "test_waves.sh: the command in line $LINENO failed" >&2' ERR
 missing=()
 for package in gtkwave xvfb xauth; do

@@ -1,7 +1,10 @@
 #include "model/files/scene_file.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 
+#include "model/files/meshes/mesh_format.h"
 #include "model/files/scene_objects.h"
 #include "model/files/scene_values.h"
 #include "model/files/toml_reader.h"
@@ -145,6 +148,12 @@ Scene read_scene(const TomlTable& root) {
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  if (is_mesh(file)) {
+    throw InputError(file, 0,
+                     fmt::format("a mesh, not a scene: write a scene with camera, lights and "
+                                 "[[object]] mesh = \"{}\"",
+                                 file.filename().string()));
+  }
   return read_scene(TomlTable::read_file(file, overrides));
 }
 

@@ -327,7 +327,7 @@ class Campaign {
   void keep_capsule(RunResult& result, const std::string& identity) const {
     const std::filesystem::path file = options_.failures / (identity + ".toml");
     try {
-      std::filesystem::create_directories(options_.failures);
+      make_folder(options_.failures);
       write_text(file, result.capsule);
     } catch (const std::exception& error) {
       result.message += fmt::format("; its capsule is not kept: {}", error.what());

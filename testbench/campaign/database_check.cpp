@@ -155,8 +155,9 @@ void check_files(const fs::path& file) {
                     "away if {} is whole",
                     printable(journal.string()), name));
   }
+  constexpr std::string_view kMagic = "SQLite format 3";
   constexpr std::size_t kFormatVersion = 18;  // of the header; 2: with a write-ahead log
-  if (bytes_at(file, kFormatVersion, 1) == "\2") {
+  if (bytes_at(file, 0, kMagic.size()) == kMagic && bytes_at(file, kFormatVersion, 1) == "\2") {
     throw InputError(
         fmt::format("{}: has a write-ahead log, which phongpipe's databases have not; as "
                     "sqlite3 {} 'PRAGMA journal_mode = DELETE' changes",

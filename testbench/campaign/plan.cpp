@@ -155,11 +155,14 @@ class Expression {
     for (const Axis& axis : plan.axes) {
       for (const std::string& value : axis.values) define_word(value);
     }
-    for (const Setting<Hardware>& setting : hardware_settings()) {
-      for (const std::string_view word : setting.choices) define_word(std::string(word));
+    for (const Variable& variable : variables_) {
+      const Setting<Hardware>* const setting = setting_called(variable.key);
+      if (setting == nullptr) continue;
+      for (const std::string_view word : setting->choices) define_word(std::string(word));
     }
     try {
       parser_.SetExpr(text);
+      check_names();
     } catch (const mu::Parser::exception_type& error) {
       throw InputError(fmt::format("{}: {}", text_, error.GetMsg()));
     }
@@ -187,6 +190,23 @@ class Expression {
     std::string key;
     double value = 0;
   };
+
+  // Throws InputError if the expression has a name of something that does not vary.
+  void check_names() {
+    std::vector<std::string> known;
+    for (const auto& [name, value] : parser_.GetVar()) known.push_back(name);
+    for (const auto& [name, value] : parser_.GetUsedVar()) {
+      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      const std::vector<std::string> keys = known_keys();
+      if (std::find(keys.begin(), keys.end(), name) != keys.end()) {
+        throw InputError(fmt::format("{}: {} does not vary", text_, name));
+      }
+      for (const auto& [word, number] : words_) known.push_back(word);
+      const std::string close = closest_word(name, known);
+      throw InputError(fmt::format("{}: {} is no name of what varies{}", text_, name,
+                                   close.empty() ? "" : fmt::format("; did you mean {}?", close)));
+    }
+  }
 
   static std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 

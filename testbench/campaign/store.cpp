@@ -225,6 +225,11 @@ Store::Store(const fs::path& file, Access access, const std::string& kind)
     throw InputError(fmt::format("{}: no such file", printable(file.string())));
   }
   check_files(file);
+  const fs::path folder = fs::absolute(file).parent_path();
+  if (access == Access::write && !fs::is_directory(folder, none)) {
+    throw InputError(fmt::format("{}: there is no folder {}", printable(file.string()),
+                                 printable(folder.string())));
+  }
   std::signal(SIGXFSZ, SIG_IGN);  // beyond the limit of file sizes, a write then fails
   guarded(file_, [&] {
     // What was interrupted while it was written is put in order by opening it for writing.

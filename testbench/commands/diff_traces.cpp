@@ -68,11 +68,11 @@ void add_diff_traces(CLI::App& application, Run& run) {
   CLI::App* command = application.add_subcommand(
       "diff-traces",
       "Compare two waveforms pixel by pixel, and name the first signal that differs");
-  command->add_option("a", options->a, "FST or VCD file with a scope pixel_datapath")
+  command->add_option("A", options->a, "FST or VCD file with a scope pixel_datapath")
       ->required()
       ->type_name("A");
   command
-      ->add_option("b", options->b, "Another, or the same: its implementations are compared then")
+      ->add_option("B", options->b, "Another, or the same: its implementations are compared then")
       ->required()
       ->type_name("B");
   command->footer(

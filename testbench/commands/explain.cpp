@@ -23,7 +23,7 @@ struct ExplainCommandOptions {
 
 int explain(const ExplainCommandOptions& options) {
   if (options.pixel.empty() != options.worst) {
-    throw InputError("which pixel? Give --pixel X,Y or --worst");
+    throw InputError("which pixel? Give one of --pixel X,Y and --worst");
   }
   std::optional<Pixel> pixel;
   if (!options.worst) pixel = parse_pixel(options.pixel);
@@ -45,7 +45,7 @@ int explain(const ExplainCommandOptions& options) {
   progress.clear();
   write_output(options.json, pixel_json(story).dump(2) + "\n");
   if (options.json != "-") print_or_throw(pixel_text(story));
-  return 0;
+  return story.rtl_agrees() ? 0 : kCheckFailed;
 }
 
 }  // namespace
@@ -66,7 +66,11 @@ void add_explain(CLI::App& application, Run& run) {
       ->type_name("FILE");
   add_stall_options(*command, options->simulation);
   add_rtl_option(*command, options->rtl_sources);
-  command->footer("Example: phongpipe explain teapot --pixel 185,245\n");
+  command->footer(
+      "Exit status: 0 explained, 1 the RTL shades the pixel in another colour, 2 bad usage or "
+      "input, "
+      "3 a tool failed.\n"
+      "Example: phongpipe explain teapot --pixel 185,245\n");
   options->hardware.add_to(*command);
   command->callback([options, &run] { run = [options] { return explain(*options); }; });
 }

@@ -46,6 +46,30 @@ void check_command(const CLI::App& application, int argc, char** argv) {
                     : fmt::format("did you mean {}?", close)));
 }
 
+// What CLI11 found wrong, the option that a misspelt one is likely to be, and where to read on.
+std::string usage_mistake(const CLI::App& application, const CLI::ParseError& error, int argc,
+                          char** argv) {
+  const std::vector<CLI::App*> called = application.get_subcommands();
+  if (called.empty()) return fmt::format("{}; see phongpipe --help", error.what());
+  const CLI::App& command = *called.front();
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  }
+  const bool is_unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  for (int i = 2; i < argc && is_unknown; ++i) {
+    std::string word = argv[i];
+    word.resize(std::min(word.size(), word.find('=')));
+    const bool is_known = std::find(known.begin(), known.end(), word) != known.end();
+    if (word.rfind("--", 0) != 0 || is_known) continue;
+    const std::string close = closest_word(word, known);
+    if (close.empty()) break;
+    return fmt::format("{}: no such option of {}; did you mean {}?", word, command.get_name(),
+                       close);
+  }
+  return fmt::format("{}; see phongpipe {} --help", error.what(), command.get_name());
+}
+
 int run_program(int argc, char** argv) {
   CLI::App application(
       "phongpipe simulates the fixed-point pipeline of Bishop & Weimer's Fast Phong Shading "
@@ -90,7 +114,7 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return application.exit(help);
   } catch (const CLI::ParseError& error) {
-    return fail(kBadInput, fmt::format("{}; see phongpipe --help", error.what()));
+    return fail(kBadInput, usage_mistake(application, error, argc, argv));
   }
   return run();
 }

@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <optional>
 
+#include "model/files/spelling.h"
 #include "model/files/toml_reader.h"
 #include "model/scene/input_error.h"
 #include "testbench/system/installation.h"
+#include "testbench/system/terminal.h"
 
 namespace phongpipe {
 namespace {
@@ -21,8 +23,14 @@ std::optional<std::filesystem::path> sweep_file(const std::string& name) {
     return sweep ? std::make_optional<std::filesystem::path>(name) : std::nullopt;
   }
   const std::filesystem::path shipped = installation().sweeps / (name + ".toml");
-  return std::filesystem::is_regular_file(shipped, none) ? std::make_optional(shipped)
-                                                         : std::nullopt;
+  if (std::filesystem::is_regular_file(shipped, none)) return shipped;
+  const std::vector<std::string> scenes = names_in(installation().scenes);
+  const std::string close = closest_word(name, names_in(installation().sweeps));
+  if (!close.empty() && std::find(scenes.begin(), scenes.end(), name) == scenes.end()) {
+    throw InputError(
+        fmt::format("{}: no such file, scene or sweep; did you mean {}?", printable(name), close));
+  }
+  return std::nullopt;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "model/scene/input_error.h"
+#include "testbench/campaign/loader.h"
 #include "testbench/commands/campaign_options.h"
 #include "testbench/commands/plan_options.h"
 
@@ -18,7 +19,14 @@ struct SweepCommandOptions {
 int sweep(SweepCommandOptions& options) {
   const Plan plan = options.plan.plan();
   if (grid_size(plan) == 1) {
-    throw InputError("nothing varies: give --vary KEY=LIST, several scenes, or a sweep file");
+    // A mistake in the only point is more of a reason.
+    const RunRequest only = points_of(plan).front().request;
+    Loader loader;
+    loader.scene(only);
+    loader.hardware(only);
+    throw InputError(
+        "nothing varies, each key has one value: give --vary KEY=LIST or KEY=FROM:TO, several "
+        "scenes, or a sweep file");
   }
   if (options.campaign.database.empty()) {
     options.campaign.database =

@@ -79,7 +79,7 @@ class Verifier {
       const auto prepared = std::make_shared<const PreparedScene>(scene);
       std::optional<WrittenPictures> pictures;
       const auto write_pictures = [&](const VerificationResult& result) {
-        std::filesystem::create_directories(options_.pictures);
+        make_folder(options_.pictures);
         pictures.emplace(result, picture_files(options_.pictures, name));
       };
       const VerificationResult result =
@@ -126,7 +126,7 @@ class Verifier {
   }
 
   void write_timeline(const Timeline& timeline, const std::string& scene) const {
-    if (timeline_is_beside_page()) std::filesystem::create_directories(options_.pictures);
+    if (timeline_is_beside_page()) make_folder(options_.pictures);
     write_text(options_.timeline, timeline_json(timeline, scene));
     write_text(timeline_picture_file(), timeline_picture(timeline, scene));
   }

@@ -23,11 +23,12 @@ namespace {
 
 struct Device {
   const char *card, *title, *device, *package;
+  int logic_cells;
   int most_lanes;  // with more, a design does not fit, or is not placed within minutes
 };
 // The largest first: what it takes, the others take, or less.
-constexpr Device kDevices[] = {{"ice40-hx8k", "Lattice iCE40-HX8K", "hx8k", "ct256", 4},
-                               {"ice40-up5k", "Lattice iCE40-UP5K", "up5k", "sg48", 2}};
+constexpr Device kDevices[] = {{"ice40-hx8k", "Lattice iCE40-HX8K", "hx8k", "ct256", 7680, 4},
+                               {"ice40-up5k", "Lattice iCE40-UP5K", "up5k", "sg48", 5280, 2}};
 
 DatapathConfiguration of_preset(const char* preset, int channels) {
   DatapathConfiguration datapath{load_hardware(preset, {"technology=generic"}).formats, {}};
@@ -183,8 +184,9 @@ std::string card_text(const Device& device, const Designs& designs, const Design
       "# longest path. Other configurations are fitted: relative_error is the largest of a design\n"
       "# whose own figures were left out.\n"
       "name = \"{}\"\nsource = \"this RTL, placed and routed by {}\"\n"
-      "device = \"{}\"\npackage = \"{}\"\n",
-      device.title, kPlacementSeeds, device.card, tools, device.device, device.package);
+      "device = \"{}\"\npackage = \"{}\"\nlogic_cells = {}\n",
+      device.title, kPlacementSeeds, device.card, tools, device.device, device.package,
+      device.logic_cells);
   std::set<std::string_view> modules;
   for (const DatapathKindTraits& kind : kDatapathKinds) modules.insert(kind.rtl_module);
   for (const std::string_view module : modules) {

@@ -79,7 +79,8 @@ std::string_view name(FigureKind kind) {
 
 std::string kind_text(const ClockFigure& clock) {
   if (clock.kind != FigureKind::fitted) return std::string(name(clock.kind));
-  return fmt::format("fitted ± {:.0f} %", std::ceil(100 * clock.relative_error));
+  return fmt::format("fitted ± {:.1f} %{}", std::ceil(1000 * clock.relative_error) / 10,
+                     clock.too_large ? ", but the design is too large for the device" : "");
 }
 
 std::vector<std::pair<std::string_view, double>> synthesis_features(
@@ -143,8 +144,11 @@ ClockFigure Technology::clock(const DatapathConfiguration& configuration) const 
       measured.begin(), measured.end(), [&](const MeasuredDesign& a, const MeasuredDesign& b) {
         return in_common(parameters, a.parameters) < in_common(parameters, b.parameters);
       });
-  const FittedModel& model = models_of(configuration).clock_ns;
-  return {model.value(configuration), FigureKind::fitted, model.relative_error, design->limited_by};
+  const FittedModels& models = models_of(configuration);
+  const double cells =
+      std::max(models.luts.value(configuration), models.registers.value(configuration));
+  return {models.clock_ns.value(configuration), FigureKind::fitted, models.clock_ns.relative_error,
+          design->limited_by, logic_cells > 0 && cells > logic_cells};
 }
 
 std::optional<AreaFigure> Technology::area(const DatapathConfiguration& configuration) const {
@@ -181,6 +185,9 @@ Technology load_technology(const std::string& name) {
   } else {
     technology.device = table.text("device");
     technology.package = table.text("package");
+    if (table.has("logic_cells")) {
+      technology.logic_cells = table.integer("logic_cells", 1, kMostCells);
+    }
     const TomlTable fitted = table.table("fitted");
     for (const DatapathKindTraits& kind : kDatapathKinds) {
       const std::string_view module = kind.rtl_module;

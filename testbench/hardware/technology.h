@@ -24,8 +24,9 @@ struct ClockFigure {
   FigureKind kind = FigureKind::assumed;
   double relative_error = 0;  // largest of the fitted model, leaving one out; 0 if not fitted
   std::string limited_by;     // block whose path is the longest, as far as it is known
+  bool too_large = false;     // the design takes more cells than the device has
 };
-// "measured", "fitted ± 7 %" or "assumed".
+// "measured", "fitted ± 7.2 %" or "assumed"; and whether the design is too large for the device.
 std::string kind_text(const ClockFigure& clock);
 
 struct AreaFigure {
@@ -72,6 +73,7 @@ struct Technology {
   std::string name;
   std::string source;           // where the figures come from
   std::string device, package;  // for nextpnr; empty if it cannot be placed and routed
+  int logic_cells = 0;          // of the device, a LUT and a register each; 0: not known
   std::vector<MeasuredDesign> measured;
   std::map<std::string, FittedModels, std::less<>> fitted;  // by module, if `measured`
   ClockFigure fixed;                                        // if not `measured`

@@ -76,14 +76,16 @@ void add_front(std::string& text, const Store& store) {
         line += fmt::format(" {}={}", key.substr(key.rfind('.') + 1), value);
       }
     }
+    const std::size_t points = lines.size();
     const std::size_t most = fronts.size() > 1 ? 2 : kMostLines;
     if (lines.size() > most) {
       lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(most) - 1, lines.end() - 1);
       if (fronts.size() == 1) lines.insert(lines.end() - 1, "…");
     }
-    text += fmt::format("  front    {}least error for its time at {} points:\n",
+    text += fmt::format("  front    {}least error for its time at {} point{}{}:\n",
                         fronts.size() > 1 ? printable(scene_text(table, front.front())) + ": " : "",
-                        front.size());
+                        points, points == 1 ? "" : "s",
+                        front.size() > points ? fmt::format(", by {} runs", front.size()) : "");
     for (const std::string& line : lines) text += fmt::format("           {}\n", line);
   }
 }
@@ -158,15 +160,22 @@ std::string campaign_text(const CampaignResult& result, const Store& store, cons
         fmt::emphasis::bold | fmt::fg(good ? fmt::terminal_color::green : fmt::terminal_color::red),
         "{}", verdict);
   }
-  std::string text = fmt::format("{} {}  {} of {} runs passed{}", verdict, store.kind(),
-                                 count_text(p.done[Outcome::passed]),
-                                 count_text(p.total - p.known.all()), outcomes(p));
-  if (p.known.all() > 0) text += fmt::format("; {} were known", count_text(p.known.all()));
-  if (p.known.failures() > 0) {
-    text += fmt::format(", {} of them failed; --retry-failed does these again",
-                        count_text(p.known.failures()));
+  std::vector<std::string> parts;
+  const bool all_known = p.known.all() == p.total;
+  if (!all_known) {
+    parts.push_back(fmt::format("{} of {} runs passed{}", count_text(p.done[Outcome::passed]),
+                                count_text(p.total - p.known.all()), outcomes(p)));
   }
-  text += fmt::format("; {}\n", duration(p.seconds));
+  if (p.known.all() > 0) {
+    parts.push_back(
+        fmt::format("{}{} were known", all_known ? "all " : "", count_text(p.known.all())));
+  }
+  if (p.known.failures() > 0) {
+    parts.back() += fmt::format(", {} of them failed", count_text(p.known.failures()));
+    parts.emplace_back("--retry-failed does these again");
+  }
+  parts.push_back(duration(p.seconds));
+  std::string text = fmt::format("{} {}  {}\n", verdict, store.kind(), fmt::join(parts, "; "));
   add_failures(text, result);
   add_refusals(text, result);
   if (store.kind() == "sweep") add_front(text, store);

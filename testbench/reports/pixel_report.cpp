@@ -157,6 +157,9 @@ class TextReport {
     const std::size_t largest = error.largest_part();
     line("largest", fmt::format("{} {}", kErrorParts[largest].name,
                                 list(channels_.of(error.parts[largest]), "{:+.4f}")));
+    if (!story_.rtl_agrees()) {
+      line("differs", "the RTL shades it in another colour; `phongpipe verify` names the register");
+    }
   }
 
   void visits() {
@@ -170,8 +173,7 @@ class TextReport {
                        list(channels_.of(v.color)), cycle_text(v.systemc_cycle),
                        cycle_text(v.rtl_cycle), fate(v)));
       if (v.rtl_color.value_or(v.color) != v.color) {
-        line("", fmt::format("WRONG in the RTL: colour {}; `phongpipe verify` tells the register",
-                             list(channels_.of(*v.rtl_color))));
+        line("", fmt::format("WRONG in the RTL: colour {}", list(channels_.of(*v.rtl_color))));
       }
     }
   }

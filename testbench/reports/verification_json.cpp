@@ -77,6 +77,7 @@ ordered_json report_json(const VerificationResult& r, const std::string& capsule
       {"configuration", configuration_json(r)},
       {"clock_kind", name(r.clock.kind)},
       {"clock_limited_by", r.clock.limited_by},
+      {"too_large_for_device", r.clock.too_large},
       {"configuration_hash", configuration_hash(r.hardware)},
       {"detail", r.options.detail == Detail::cycle ? "cycle" : "span"},
       {"stall_percent", r.options.stall_percent},

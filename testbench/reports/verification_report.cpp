@@ -140,12 +140,16 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
                                                 r.full_hardware->systemc.frame_mismatches)));
   }
   if (r.set_up.overflows > 0) {
+    const bool in_setup = r.overflowing.empty();
     page.line("overflow",
               page.toned(Tone::bad,
-                         fmt::format("{} triangles have values that do not fit their registers, so "
-                                     "that their pixels may be wrong: is a light too close or "
-                                     "bright, or [depth_cue] narrow?",
-                                     r.set_up.overflows)));
+                         fmt::format("values of {} triangle{} do not fit {}, so that their pixels "
+                                     "may be wrong: {}",
+                                     r.set_up.overflows, r.set_up.overflows == 1 ? "" : "s",
+                                     in_setup ? "the setup engine's 64 bits" : "their registers",
+                                     in_setup ? "give the series fewer fraction bits"
+                                              : "is a light too close or bright, or [depth_cue] "
+                                                "narrow?")));
     for (const SeriesRanges& ranges : r.overflowing) {
       page.line("", fmt::format("the {} series needs registers of {} bits and has {}", ranges.name,
                                 ranges.needed_width(), ranges.width));

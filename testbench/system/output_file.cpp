@@ -173,6 +173,15 @@ void check_writable(const fs::path& file) {
   find_place(file);
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw InputError(fmt::format("{}: no folder can be made there: {}", printable(folder.string()),
+                                 error.message()));
+  }
+}
+
 void print_or_throw(std::string_view text) {
   std::signal(SIGXFSZ, SIG_IGN);
   const bool lost_before = std::ferror(stdout) != 0;

@@ -17,6 +17,9 @@ void write_text(const std::filesystem::path& file, std::string_view text);
 // long work.
 void check_writable(const std::filesystem::path& file);
 
+// Makes a folder and those around it, where they are not there. Throws InputError if it cannot.
+void make_folder(const std::filesystem::path& folder);
+
 // Prints to standard output at once. Throws ToolError if this text, or text printed before, is
 // lost.
 void print_or_throw(std::string_view text);

@@ -117,6 +117,7 @@ std::string capsule_text(const Scene& scene, const VerificationResult& result) {
                          {"found", divergence_text(result)},
                          {"divergence", divergence_table(*result.diverging())},
                          {"options", chosen},
+                         {"hardware_name", result.hardware.name},
                          {"hardware", hardware_toml(result.hardware)},
                          {"scene", scene_toml(scene)}};
   std::ostringstream text;
@@ -161,6 +162,7 @@ Capsule read_capsule(const std::filesystem::path& file, bool anyway) {
   }
   options.finish();
   capsule.hardware = parse_hardware(root.text("hardware"), file.string() + " (its hardware)");
+  capsule.hardware.name = root.text("hardware_name");
   capsule.scene = parse_scene(root.text("scene"), file.string() + " (its scene)");
   root.finish();
   capsule.scene.source = capsule.name;

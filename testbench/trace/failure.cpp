@@ -46,7 +46,7 @@ FailureFiles write_failure(const std::shared_ptr<const PreparedScene>& scene,
                            const std::string& name) {
   FailureFiles files;
   if (result.diverging() == nullptr) return files;
-  fs::create_directories(folder);
+  make_folder(folder);
   files.capsule = folder / (name + ".toml");
   write_text(files.capsule, capsule_text(scene->scene, result));
   try {

@@ -308,6 +308,12 @@ Exits exits_of(const FrameSetup& frame, const PixelStory& story, SimulationOptio
 
 }  // namespace
 
+bool PixelStory::rtl_agrees() const {
+  return std::all_of(visits.begin(), visits.end(), [](const PixelVisit& visit) {
+    return visit.rtl_color.value_or(visit.color) == visit.color;
+  });
+}
+
 void require_covered(const PreparedFrame& frame, const Framebuffer& framebuffer, int x, int y) {
   const int width = frame.setup.width, height = frame.setup.height;
   const auto refuse = [&](const std::string& reason) {

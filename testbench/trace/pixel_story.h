@@ -98,6 +98,9 @@ struct PixelStory {
   EffectSet effects;
   std::vector<LightStory> lights;
   std::vector<Neighbour> neighbours;
+
+  // Whether the RTL shaded the pixel as the model did, as far as add_cycles() looked.
+  bool rtl_agrees() const;
 };
 
 // Throws InputError, which says what pixel would do, if this one is outside the image or not

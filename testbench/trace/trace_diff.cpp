@@ -101,6 +101,16 @@ TraceComparison compare(const TracedDatapath& a, const TracedDatapath& b, bool s
   return result;
 }
 
+void refuse_if_empty(const TraceDiff& diff, const std::filesystem::path& a_file) {
+  const auto& all = diff.comparisons;
+  if (std::any_of(all.begin(), all.end(),
+                  [](const TraceComparison& c) { return c.a_pixels + c.b_pixels > 0; })) {
+    return;
+  }
+  throw InputError(fmt::format("{}: no pixel enters pixel_datapath there, nothing is to compare",
+                               printable(a_file.string())));
+}
+
 // Of a file that was cut before a pixel that both have, nothing can be said.
 void refuse_if_too_short(const TraceDiff& diff, const std::filesystem::path& file, bool complete) {
   const bool nothing =
@@ -132,6 +142,7 @@ TraceDiff diff_traces(const std::filesystem::path& a_file, const std::filesystem
     for (std::size_t i = 1; i < a.datapaths.size(); ++i) {
       diff.comparisons.push_back(compare(a.datapaths.front(), a.datapaths[i], true));
     }
+    if (a.complete) refuse_if_empty(diff, a_file);
     return diff;
   }
   const TracedDatapaths b = read_datapaths(b_file);
@@ -146,6 +157,7 @@ TraceDiff diff_traces(const std::filesystem::path& a_file, const std::filesystem
   }
   refuse_if_too_short(diff, a_file, a.complete);
   refuse_if_too_short(diff, b_file, b.complete);
+  refuse_if_empty(diff, a_file);
   return diff;
 }
 

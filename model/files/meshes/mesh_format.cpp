@@ -11,15 +11,25 @@
 namespace phongpipe {
 namespace fs = std::filesystem;
 
-const MeshFormat& mesh_format_of(const fs::path& file) {
+static const std::vector<MeshFormat>& mesh_formats() {
   static const std::vector<MeshFormat> formats = {
       {{".obj"}, read_obj, {".mtl"}},
       {{".ply"}, read_ply, {}},
       {{".stl"}, read_stl, {}},
       {{".gltf", ".glb"}, read_gltf, {".bin", ".glbin", ".glbuf"}},
   };
+  return formats;
+}
+
+bool is_mesh(const fs::path& file) {
+  return std::any_of(mesh_formats().begin(), mesh_formats().end(), [&](const MeshFormat& format) {
+    return has_extension_of(file, format.extensions);
+  });
+}
+
+const MeshFormat& mesh_format_of(const fs::path& file) {
   std::vector<std::string> known;
-  for (const MeshFormat& format : formats) {
+  for (const MeshFormat& format : mesh_formats()) {
     if (has_extension_of(file, format.extensions)) return format;
     known.insert(known.end(), format.extensions.begin(), format.extensions.end());
   }

@@ -15,6 +15,8 @@ struct MeshFormat {
   std::vector<std::string> companions;  // extensions of the files that it may name
 };
 
+bool is_mesh(const std::filesystem::path& file);
+
 // Throws InputError for other extensions.
 const MeshFormat& mesh_format_of(const std::filesystem::path& file);
 

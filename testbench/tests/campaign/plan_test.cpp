@@ -90,6 +90,25 @@ TEST(Plan, TiesFollowAndConditionsLeaveOut) {
                     "datapath.specular_fraction_bits=10"}));
 }
 
+// Also series, which is a word for another key, too.
+TEST(Plan, ConditionsOnWhatDoesNotVaryAreErrors) {
+  const auto expect_mistake = [](const char* condition, const char* message) {
+    Plan plan = plan_of({"rom_address_bits=6:13"});
+    plan.conditions = {condition};
+    try {
+      points_of(plan);
+      ADD_FAILURE() << condition;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(), fmt::format("{}: {}", condition, message));
+    }
+  };
+  expect_mistake("series == weighted", "series does not vary");
+  expect_mistake("rom_address_bits > 8 && datapath.kind == serial", "datapath.kind does not vary");
+  expect_mistake("rom_adress_bits > 8",
+                 "rom_adress_bits is no name of what varies; did you mean rom_address_bits?");
+  expect_mistake("rom_address_bits == nonsense", "nonsense is no name of what varies");
+}
+
 TEST(Plan, MistakesInExpressionsAreErrors) {
   Plan plan = plan_of({"rom_address_bits=6:13"});
   plan.conditions = {"rom_adress > 9"};

@@ -109,6 +109,9 @@ TEST_F(StoreTest, RefusesWhatIsNotOurs) {
   };
   std::ofstream(file("text.db")) << std::string(5000, 'x');
   expect_refused(open("text.db"), "no database, or a damaged one");
+  // In its 18th byte a database has the version of its format.
+  std::ofstream(file("picture.db")) << "\x89PNG" << std::string(100, '\2');
+  expect_refused(open("picture.db"), "no database, or a damaged one");
   {
     SQLite::Database other(file("other.db").string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     other.exec("CREATE TABLE t (x)");
@@ -122,7 +125,7 @@ TEST_F(StoreTest, RefusesWhatIsNotOurs) {
   expect_refused(open("newer.db"), "a later phongpipe");
   store_of("regress.db", run("a", 4), {}, "regress");
   expect_refused(open("regress.db"), "the results of a regress, not of a sweep");
-  expect_refused(open("no/such/folder.db"), "cannot be opened");
+  expect_refused(open("no/such/folder.db"), "there is no folder");
   expect_refused(open("."), "not a file");
   expect_refused([&] { const Store store(file("none.db"), Store::Access::read); }, "no such file");
 }

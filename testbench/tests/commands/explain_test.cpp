@@ -134,8 +134,8 @@ TEST_F(Explain, RefusesWhatIsNoPixel) {
     expect_refused({"explain", "sphere", "--pixel", pixel, "--json", output},
                    fmt::format("--pixel {}: give X,Y", pixel));
   }
-  expect_refused({"explain", "sphere"}, "Give --pixel X,Y or --worst");
-  expect_refused({"explain", "sphere", "--worst", "--pixel", "1,2"}, "Give --pixel X,Y or --worst");
+  expect_refused({"explain", "sphere"}, "Give one of --pixel X,Y and --worst");
+  expect_refused({"explain", "sphere", "--worst", "--pixel", "1,2"}, "Give one of --pixel X,Y and --worst");
   expect_refused({"explain", "sphere", "--pixel", "256,0", "--json", output},
                  "x goes from 0 to 255, y from 0 to 255");
   expect_refused({"explain", "sphere", "--pixel", "-1,0"}, "x goes from 0 to 255");

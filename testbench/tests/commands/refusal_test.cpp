@@ -16,6 +16,11 @@ TEST_F(Program, BadUsageIsOneLineAndTwo) {
   expect_refused({"frob"}, "frob: no such command; there are verify, render, compare");
   expect_refused({"verfy", "sphere"}, "did you mean verify?");
   expect_refused({"verify"}, "give scenes, or --hard-cases");
+  expect_refused({"verify", "sphere", "--bugdet", "80"}, "did you mean --budget?");
+  expect_refused({"verify", "sphere", "--bugdet=80"}, "did you mean --budget?");
+  expect_refused({"verify", "sphere", "--xyzzy"}, "see phongpipe verify --help");
+  expect_refused({"--xyzzy"}, "see phongpipe --help");
+  expect_refused({"verify", write("ball.obj", "v 0 0 0\n")}, "a mesh, not a scene");
   expect_refused({"verify", "nosuch.toml"},
                  "nosuch.toml: no such file or scene; there are the scenes mesh, pawn,");
   expect_refused({"verify", "sphere", "--hardware", "nosuch"}, "paper-1k, paper-8k");

@@ -127,6 +127,17 @@ TEST(Technology, OtherConfigurationsAreFittedWithinAStatedError) {
   }
 }
 
+TEST(Technology, ADesignThatIsTooLargeForTheDeviceIsToldSo) {
+  DatapathConfiguration c = of_preset("default");
+  c.channels = 3;
+  c.kind = DatapathKind::wide4;
+  const ClockFigure clock = load_technology("ice40-hx8k").clock(c);
+  EXPECT_TRUE(clock.too_large);
+  EXPECT_NE(kind_text(clock).find("too large for the device"), std::string::npos);
+  c.kind = DatapathKind::wide2;
+  EXPECT_FALSE(load_technology("ice40-hx8k").clock(c).too_large);
+}
+
 TEST(Technology, EveryLegalConfigurationHasAClock) {
   const Technology card = load_technology("ice40-hx8k");
   for (const bool highest : {false, true}) {

@@ -110,6 +110,7 @@ TEST_F(Capsules, KeepEverything) {
   EXPECT_EQ(capsule.found,
             "pixel_datapath.color.specular.rom.address: model 0x1f3, rtl 0x1f2 in cycle 81204");
   EXPECT_EQ(configuration_hash(capsule.hardware), configuration_hash(result_.hardware));
+  EXPECT_EQ(capsule.hardware.name, result_.hardware.name);
   EXPECT_EQ(capsule.options.stall_percent, 20);
   EXPECT_EQ(capsule.options.seed, 9U);
   EXPECT_TRUE(capsule.same_program);
