@@ -105,7 +105,7 @@ void report_signal(Page& page, const VerificationResult& r) {
 // The pixels with the largest errors, if some error is more than --max-error allows.
 void report_worst_pixels(Page& page, const VerificationResult& r) {
   if (r.within_error()) return;
-  page.line("error", page.toned(Tone::bad, r.over_limit_text() + "; the worst:"));
+  page.line("limit", page.toned(Tone::bad, r.over_limit_text() + "; the worst:"));
   for (const WorstPixel& worst : r.worst_pixels) {
     if (worst.error_lsb <= *r.options.max_error_lsb) break;
     const auto text = [&](const Color& color) {
@@ -162,18 +162,21 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
                                                          *r.certified_error_lsb)));
   }
   if (!r.passed() && !style.command.empty()) {
-    page.line("again",
-              printable(style.command) +
-                  (r.options.detail == Detail::cycle ? " --verbose" : " --detail cycle --verbose"));
+    page.line("again", printable(style.command) + (r.agrees() || r.options.detail == Detail::cycle
+                                                       ? " --verbose"
+                                                       : " --detail cycle --verbose"));
   }
 }
 
-std::string time_text(const Page& page, const VerificationResult& r) {
+std::string budget_text(const Page& page, const VerificationResult& r) {
   const std::string frame =
       fmt::format("{:.2f} of {:.10g} ns a pixel", r.frame_ns_per_pixel(), r.options.budget_ns);
-  return fmt::format("{}, clock {:.2f} ns {}; {}limited by {}",
-                     r.within_budget() ? frame : page.toned(Tone::bad, frame + ", OVER BUDGET"),
-                     r.clock.ns, kind_text(r.clock),
+  return r.within_budget() ? frame : page.toned(Tone::bad, frame + ", OVER BUDGET");
+}
+
+std::string time_text(const Page& page, const VerificationResult& r) {
+  return fmt::format("{}, clock {:.2f} ns {}; {}limited by {}", budget_text(page, r), r.clock.ns,
+                     kind_text(r.clock),
                      r.rtl ? fmt::format("datapath {:.2f}; ", r.datapath_ns_per_pixel()) : "",
                      r.limiting_block().block);
 }
@@ -324,8 +327,7 @@ std::string report_line(const VerificationResult& r, const ReportStyle& style) {
   Page page(style.color);
   const bool error_is_told = r.accuracy.pixels_over_limit > 0 && r.within_error();
   page.plain(fmt::format(
-      "{}, {:.2f} of {:.10g} ns a pixel{}", heading(page, r), r.frame_ns_per_pixel(),
-      r.options.budget_ns,
+      "{}, {}{}", heading(page, r), budget_text(page, r),
       error_is_told ? "" : fmt::format(", at most {:.2f} LSB", r.accuracy.total.largest_lsb)));
   report_warnings(page, r);
   report_failures(page, r, style);

@@ -212,6 +212,9 @@ TEST_F(Program, OverBudgetFails) {
   const ProcessOutput output = run({"verify", "sphere", "--budget", "1"});
   EXPECT_EQ(output.status, 1);
   EXPECT_NE(output.text.find("of 1 ns a pixel, OVER BUDGET"), std::string::npos) << output.text;
+  const ProcessOutput two = run({"verify", "sphere", "mesh", "--budget", "6"});
+  EXPECT_NE(two.text.find("of 6 ns a pixel, OVER BUDGET"), std::string::npos) << two.text;
+  EXPECT_NE(two.text.find("1 of 2 passed"), std::string::npos) << two.text;
   EXPECT_NE(output.text.find("FAILED"), std::string::npos);
 }
 
