@@ -19,7 +19,7 @@ struct GuardedFrame {
 
 struct Guard {
   std::string_view name, meaning;
-  std::string_view counts;  // "pixels", "triangles", …
+  std::string_view counts;  // "pixel", "triangle", …
   // Null for a guard that is not inside a frame: kRefusal, kSettings, kStalls.
   std::uint64_t (*count)(const GuardedFrame&);
 };

@@ -44,19 +44,15 @@ std::filesystem::path sheet_file(const HardCaseOptions& options) {
 // All cases with their pictures, and the contact sheet.
 void write_pages(const HardCaseOptions& options, const std::vector<HardCaseResult>& results) {
   std::filesystem::create_directories(options.out);
-  VerificationPage page;
+  VerificationPage page("Hard cases", "case");
   for (const HardCaseResult& result : results) {
-    RunRequest request = request_of(result.hard_case);
-    request.scene = result.hard_case.name;
-    if (!result.verification) {
-      page.add_refused(request, result.hard_case.refused);
-      continue;
-    }
+    page.add(result.hard_case.name, request_of(result.hard_case), as_run(result));
+    if (!result.verification) continue;
     std::string name = result.hard_case.name;
     std::replace(name.begin(), name.end(), '/', '-');
     const auto files = picture_files(options.out, name);
     WrittenPictures(*result.verification, files).wait();
-    page.add(request, *result.verification, files);
+    page.add_pictures(files);
   }
   write_text(page_file(options), page.text());
   write_png(sheet_file(options), contact_sheet(results));
@@ -70,6 +66,8 @@ int verify_hard_cases(const HardCaseOptions& options) {
   if (!options.out.empty()) {
     check_outputs(options.out, {page_file(options), sheet_file(options)});
   }
+  std::size_t name_width = 0;
+  for (const HardCase& hard_case : cases) name_width = std::max(name_width, hard_case.name.size());
   Progress progress;
   std::vector<HardCaseResult> results;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -82,10 +80,10 @@ int verify_hard_cases(const HardCaseOptions& options) {
     passed += result.passed() ? 1 : 0;
     json.push_back(hard_case_json(result));
     if (options.json == "-") continue;
-    print_or_throw(hard_case_line(result, color_wanted(), options.verbose));
+    print_or_throw(hard_case_line(result, name_width, color_wanted(), options.verbose));
   }
   if (options.json != "-") {
-    print_or_throw(fmt::format("{} of {} hard cases passed\n", passed, cases.size()));
+    print_or_throw(fmt::format("{} of {} passed\n", passed, count_text(cases.size(), "hard case")));
   }
   write_output(options.json, json.dump(2) + "\n");
   if (!options.out.empty()) {

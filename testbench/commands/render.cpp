@@ -13,6 +13,7 @@
 #include "model/scene/subdivision.h"
 #include "testbench/cases/named_scene.h"
 #include "testbench/commands/options.h"
+#include "testbench/cosim/metrics.h"
 #include "testbench/drawing/pictures.h"
 #include "testbench/hardware/hardware.h"
 #include "testbench/methods/real_frame.h"
@@ -88,8 +89,7 @@ std::vector<Color> render_fixed(const RenderCommandOptions& options, const Scene
   const PreparedFrame frame(scene, hardware.formats, hardware.setup);
   const ModelFrame model = run_model(frame.setup);
   if (model.triangles.overflows > 0) {
-    fmt::print(stderr, "warning: {} triangles have values that do not fit their registers\n",
-               model.triangles.overflows);
+    tell("warning: " + overflow_text(model.triangles.overflows));
   }
   return in_lsb(model.colors(), frame.setup.configuration.channels);
 }

@@ -94,7 +94,8 @@ class Verifier {
       progress_.clear();
       show(scene, result, name, failure);
       if (!options_.pictures.empty()) {
-        page_.add(request_of(scene), result, picture_files(options_.pictures, name));
+        page_.add(scene.source, request_of(scene), summary_of(result));
+        page_.add_pictures(picture_files(options_.pictures, name));
         if (timeline_is_beside_page()) {
           page_.add_picture("timeline", timeline_picture_file());
         }
@@ -107,7 +108,7 @@ class Verifier {
       const bool input = dynamic_cast<const InputError*>(&error) != nullptr;
       status_ = std::max(status_, input ? kBadInput : kToolFailed);
       tell("phongpipe: " + printable(error.what()));
-      if (input) page_.add_refused(request_of(scene), error.what());
+      if (input) page_.add(scene.source, request_of(scene), refused(error.what()));
       results_.push_back(
           {{"scene", scene.source}, {"passed", false}, {"error", printable(error.what())}});
     }

@@ -270,9 +270,17 @@ std::string count_text(std::uint64_t count) {
   return metric_text(static_cast<std::int64_t>(count));
 }
 
+std::string count_text(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count_text(count), noun, count == 1 ? "" : "s");
+}
+
+std::string overflow_text(std::uint64_t triangles) {
+  return fmt::format("values of {} do not fit their registers", count_text(triangles, "triangle"));
+}
+
 std::string mismatches_text(const ImplementationResult& found, std::uint64_t pixels) {
   const std::string of_stream =
-      fmt::format("{} of {} pixels", count_text(found.stream_mismatches), count_text(pixels));
+      fmt::format("{} of {}", count_text(found.stream_mismatches), count_text(pixels, "pixel"));
   if (found.stopped()) return of_stream + ", and no more were counted";
   return fmt::format("{}, {} of the final frame", of_stream, count_text(found.frame_mismatches));
 }

@@ -40,6 +40,10 @@ void for_each_block_metric(const VerificationResult& result,
                            const std::function<void(const Metric&, const MetricValue& own,
                                                     const MetricValue& full)>& visit);
 std::string count_text(std::uint64_t count);  // 1,234,567
+// The count of things whose plural ends in s: "1 pixel", "1,234,567 pixels".
+std::string count_text(std::uint64_t count, std::string_view noun);
+// That triangles have values too large for their registers.
+std::string overflow_text(std::uint64_t triangles);
 // Which pixels differ: "3 of 1,000 pixels, 2 of the final frame". `pixels`: of the stream.
 std::string mismatches_text(const ImplementationResult& found, std::uint64_t pixels);
 

@@ -133,9 +133,7 @@ Failure failure_of(const VerificationResult& r) {
                                    r.full_hardware->systemc.frame_mismatches)};
   }
   if (r.set_up.overflows > 0) {
-    return {std::string(kOverflow),
-            fmt::format("{} triangles have values that do not fit their registers",
-                        r.set_up.overflows)};
+    return {std::string(kOverflow), overflow_text(r.set_up.overflows)};
   }
   if (!r.within_error()) {
     return {fmt::format("error: {}", r.worst_pixels.front().largest_part), r.over_limit_text()};

@@ -74,7 +74,7 @@ constexpr std::string_view kOverflow = "overflow";
 
 struct RunResult {
   Outcome outcome = Outcome::crashed;
-  std::string message;  // why it has not passed, in one line
+  std::string message;  // why it has not passed, or how it had to end, in one line
   std::string bucket;   // what failed first, without numbers: failures of one kind have the same
   VerifiedBy verified_by = VerifiedBy::nothing;
   std::string configuration_hash;    // of the resolved hardware; empty without a result

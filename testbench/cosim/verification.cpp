@@ -215,8 +215,7 @@ const ImplementationResult* VerificationResult::diverging() const {
 std::string VerificationResult::over_limit_text() const {
   const std::uint64_t pixels = accuracy.pixels_over_limit;
   if (pixels == 0) return {};
-  return fmt::format("{} pixel{} off by more than {:g} LSB, at most {:.2f}",
-                     metric_text(static_cast<std::int64_t>(pixels)), pixels == 1 ? "" : "s",
+  return fmt::format("{} off by more than {:g} LSB, at most {:.2f}", count_text(pixels, "pixel"),
                      options.max_error_lsb.value_or(AccuracyOptions().limit_lsb),
                      accuracy.total.largest_lsb);
 }

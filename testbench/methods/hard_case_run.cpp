@@ -116,16 +116,29 @@ HardCaseResult run_hard_case(const HardCase& hard_case, const std::filesystem::p
     verify_case(result, rtl_sources, pictures);
     if (hard_case.guard == kRefusal) result.failure = "is not refused";
   } catch (const InputError& error) {
-    const std::string message = error.what();
+    result.refusal = error.what();
     if (hard_case.guard != kRefusal) {
-      result.failure = "is refused: " + message;
-    } else if (message.find(hard_case.refused) == std::string::npos) {
-      result.failure = fmt::format("is refused with other words: {}", message);
+      result.failure = "is refused: " + result.refusal;
+    } else if (result.refusal.find(hard_case.refused) == std::string::npos) {
+      result.failure = fmt::format("is refused with other words: {}", result.refusal);
     } else {
       result.guarded = 1;
     }
   }
   return result;
+}
+
+RunResult as_run(const HardCaseResult& result) {
+  RunResult run = result.verification ? summary_of(*result.verification) : refused(result.refusal);
+  if (!result.passed()) {
+    if (run.outcome == Outcome::passed) run.outcome = Outcome::failed;
+    run.message = result.failure;
+  } else if (run.outcome != Outcome::passed) {
+    run.message = fmt::format("{}, as expected: {}", run.bucket, run.message);
+    run.outcome = Outcome::passed;
+    run.bucket.clear();
+  }
+  return run;
 }
 
 }  // namespace phongpipe

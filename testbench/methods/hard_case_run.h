@@ -15,6 +15,7 @@ struct HardCaseResult {
   HardCase hard_case;
   std::string failure;        // what does not hold, or empty
   std::uint64_t guarded = 0;  // pixels, triangles, … that are other without the guard
+  std::string refusal;        // the message with which the input is refused, or empty
   // None for input that is refused.
   std::optional<VerificationResult> verification;
   std::size_t methods = 0;        // shading methods that drew the scene
@@ -27,6 +28,10 @@ struct HardCaseResult {
 // `rtl_sources`: as in VerificationOptions. Pictures are kept if wanted.
 HardCaseResult run_hard_case(const HardCase& hard_case, const std::filesystem::path& rtl_sources,
                              bool pictures);
+
+// The result as one of a run, whose metrics are kept: a case that ends as it must has passed, and
+// the message tells how if that is not as other runs pass.
+RunResult as_run(const HardCaseResult& result);
 
 // What `verify` is asked to do for it.
 RunRequest request_of(const HardCase& hard_case);

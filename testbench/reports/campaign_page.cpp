@@ -126,10 +126,9 @@ std::vector<std::string> summary_of(const ResultTable& table, bool alternatives)
       alternatives ? front_texts(table) : std::vector<std::string>{extremes_text(table)};
   const std::size_t runs = table.rows.size();
   const std::string of_what =
-      scenes.size() == 1 ? *scenes.begin() : fmt::format("{} scenes", count_text(scenes.size()));
-  lines.insert(lines.begin(),
-               {fmt::format("{} run{} of {}.", count_text(runs), runs == 1 ? "" : "s", of_what),
-                fmt::format("{}.", fmt::join(counts, ", "))});
+      scenes.size() == 1 ? *scenes.begin() : count_text(scenes.size(), "scene");
+  lines.insert(lines.begin(), {fmt::format("{} of {}.", count_text(runs, "run"), of_what),
+                               fmt::format("{}.", fmt::join(counts, ", "))});
   return lines;
 }
 

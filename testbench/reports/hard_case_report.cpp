@@ -32,25 +32,26 @@ void paste(const Picture& picture, int left, int top, Picture& sheet) {
 
 }  // namespace
 
-std::string hard_case_line(const HardCaseResult& result, bool color, bool verbose) {
+std::string hard_case_line(const HardCaseResult& result, std::size_t name_width, bool color,
+                           bool verbose) {
   const HardCase& c = result.hard_case;
   const auto verdict =
       fmt::format(color ? fmt::emphasis::bold | fmt::fg(result.passed() ? fmt::terminal_color::green
                                                                         : fmt::terminal_color::red)
                         : fmt::text_style(),
                   "{}", result.passed() ? "PASSED" : "FAILED");
-  std::string text = fmt::format("{} {:<40} ", verdict, c.name);
+  std::string text = fmt::format("{} {:<{}} ", verdict, c.name, name_width);
   if (!result.passed()) {
     text += printable(result.failure);
   } else if (result.verification) {
     const Accuracy& accuracy = result.verification->accuracy;
-    text += fmt::format(
-        "{}: {} {}; at most {:.2f} LSB, real arithmetic {:.2f}; {} methods, worst {} {:.1f}",
-        c.guard, metric_text(static_cast<std::int64_t>(result.guarded)),
-        find_guard(c.guard)->counts, accuracy.total.largest_lsb, accuracy.series.largest_lsb,
-        result.methods, result.worst_method, result.worst_method_lsb);
+    text += fmt::format("{}: {}; at most {:.2f} LSB, real arithmetic {:.2f}; {}, worst {} {:.1f}",
+                        c.guard, count_text(result.guarded, find_guard(c.guard)->counts),
+                        accuracy.total.largest_lsb, accuracy.series.largest_lsb,
+                        count_text(result.methods, "method"), result.worst_method,
+                        result.worst_method_lsb);
   } else {
-    text += fmt::format("{}: \"{}\"", c.guard, c.refused);
+    text += printable(as_run(result).message);
   }
   if (verbose) text += fmt::format("\n       breaks {}\n       must   {}", c.breaks, c.must);
   return text + "\n";
@@ -66,6 +67,7 @@ nlohmann::ordered_json hard_case_json(const HardCaseResult& result) {
                                  {"guard", c.guard},
                                  {"guarded", result.guarded},
                                  {"command", command_of(request_of(c))}};
+  if (!result.refusal.empty()) json["refusal"] = printable(result.refusal);
   if (!result.verification) return json;
   json["max_error_lsb"] = result.verification->accuracy.total.largest_lsb;
   json["real_arithmetic_lsb"] = result.verification->accuracy.series.largest_lsb;

@@ -10,8 +10,9 @@
 
 namespace phongpipe {
 
-// `verbose`: with what the case breaks, and what must happen.
-std::string hard_case_line(const HardCaseResult& result, bool color, bool verbose);
+// `verbose`: with what the case breaks, and what must happen. `name_width`: of the column of names.
+std::string hard_case_line(const HardCaseResult& result, std::size_t name_width, bool color,
+                           bool verbose);
 nlohmann::ordered_json hard_case_json(const HardCaseResult& result);
 
 // The pictures of all cases that have one, in rows, in their order; each beside its error map.

@@ -217,7 +217,7 @@ constexpr Described kDescribed[] = {
     {"technology", "", "card that gives the clock", PageColumn::Kind::setting},
     {"outcome", "", "how the run ended", PageColumn::Kind::text},
     {"verified_by", "", "what the pixels were compared with", PageColumn::Kind::text},
-    {"message", "", "why the run has not passed", PageColumn::Kind::text},
+    {"message", "", "why the run has not passed, or how it had to end", PageColumn::Kind::text},
     {"bucket", "", "what failed first", PageColumn::Kind::text},
     {"configuration_hash", "", "of the hardware", PageColumn::Kind::text},
     {"identity", "", "of all that the result depends on", PageColumn::Kind::text},

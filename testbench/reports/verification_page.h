@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "testbench/reports/result_page.h"
@@ -13,18 +14,20 @@ namespace phongpipe {
 
 class VerificationPage {
  public:
-  // A result, and the files of WrittenPictures, which belong into the page's folder.
-  void add(const RunRequest& request, const VerificationResult& result,
-           const std::array<std::filesystem::path, 3>& pictures);
-  // One more picture of the last result, a file in the page's folder.
+  // `row`: what a scene is called in the page.
+  explicit VerificationPage(std::string title = "Verification", std::string row = "scene")
+      : title_(std::move(title)), row_(std::move(row)) {}
+
+  // `name`: of the scene.
+  void add(const std::string& name, const RunRequest& request, RunResult result);
+  // Of the last result: the files of WrittenPictures, which belong into the page's folder.
+  void add_pictures(const std::array<std::filesystem::path, 3>& files);
+  // One more picture of it, a file in the page's folder.
   void add_picture(const std::string& label, const std::filesystem::path& file);
-  // A scene that cannot be verified.
-  void add_refused(const RunRequest& request, const std::string& why);
   std::string text() const;
 
  private:
-  void put(const RunRequest& request, RunResult result);
-
+  std::string title_, row_;
   std::vector<StoredRun> runs_;
   std::map<std::string, std::vector<PagePicture>> pictures_;  // by the identity of the run
 };

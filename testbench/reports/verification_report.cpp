@@ -141,15 +141,15 @@ void report_failures(Page& page, const VerificationResult& r, const ReportStyle&
   }
   if (r.set_up.overflows > 0) {
     const bool in_setup = r.overflowing.empty();
-    page.line("overflow",
-              page.toned(Tone::bad,
-                         fmt::format("values of {} triangle{} do not fit {}, so that their pixels "
-                                     "may be wrong: {}",
-                                     r.set_up.overflows, r.set_up.overflows == 1 ? "" : "s",
-                                     in_setup ? "the setup engine's 64 bits" : "their registers",
-                                     in_setup ? "give the series fewer fraction bits"
-                                              : "is a light too close or bright, or [depth_cue] "
-                                                "narrow?")));
+    page.line(
+        "overflow",
+        page.toned(Tone::bad,
+                   fmt::format("{}, so that their pixels may be wrong: {}",
+                               overflow_text(r.set_up.overflows),
+                               in_setup ? "with so many fraction bits 64 bits are too few in the "
+                                          "setup engine"
+                                        : "is a light too close or bright, or [depth_cue] "
+                                          "narrow?")));
     for (const SeriesRanges& ranges : r.overflowing) {
       page.line("", fmt::format("the {} series needs registers of {} bits and has {}", ranges.name,
                                 ranges.needed_width(), ranges.width));

@@ -111,6 +111,34 @@ TEST(HardCase, ThatIsNotRefusedOrIsRefusedOtherwiseFails) {
   EXPECT_NE(failure("[image]\nwidth = 0\n").find("is refused with other words"), std::string::npos);
 }
 
+// Pages and lines show what came out, not what was looked for.
+TEST(HardCase, ThatEndsAsItMustHasPassedAsARun) {
+  const auto run_of = [](const std::string& guard, const std::string& scene) {
+    const std::string head = "#! breaks=\"x\"\n#! must=\"y\"\n" + guard;
+    return as_run(run_hard_case(load_hard_case(write_case(head, scene), "easy"), {}, false));
+  };
+  const std::string width = "#! guard=\"refusal\"\n#! refused=\"from 1\"\n";
+  const RunResult refused = run_of(width, "[image]\nwidth = 0\n");
+  EXPECT_EQ(refused.outcome, Outcome::passed);
+  EXPECT_EQ(refused.message.rfind("refused, as expected: ", 0), 0U) << refused.message;
+  EXPECT_NE(refused.message.find("width is 0, must be from 1 to"), std::string::npos)
+      << refused.message;
+
+  const RunResult not_refused = run_of(width, kEasy);
+  EXPECT_EQ(not_refused.outcome, Outcome::failed);
+  EXPECT_EQ(not_refused.message, "is not refused");
+
+  for (const HardCase& hard_case : hard_cases()) {
+    if (hard_case.name != "channels/depth-cue-too-steep") continue;
+    const RunResult overflow = as_run(run_hard_case(hard_case, {}, false));
+    EXPECT_EQ(overflow.outcome, Outcome::passed);
+    EXPECT_EQ(overflow.message,
+              "overflow, as expected: values of 1 triangle do not fit their registers");
+    return;
+  }
+  FAIL() << "no such case";
+}
+
 TEST(HardCase, WhoseHeadIsWrongIsRefusedByLine) {
   const std::map<std::string, std::string> wrong = {
       {"#! breaks = \"x\"\n", "must"},

@@ -108,10 +108,26 @@ TEST_F(Program, VerifiesHardCases) {
     EXPECT_GT(hard_case["guarded"], 0) << hard_case;
   }
   EXPECT_GT(std::filesystem::file_size(file("hard-cases.png")), 100U);
-  EXPECT_TRUE(std::filesystem::exists(file("hard-cases.html")));
+  const std::string page = read_whole_file(file("hard-cases.html"));
+  EXPECT_NE(page.find("<h1>Hard cases</h1>"), std::string::npos);
+  EXPECT_NE(page.find(" passed, 0 failed, 0 refused."), std::string::npos);
+  // The cases are told of on demand, not above the graph.
+  const std::string summary = page.substr(0, page.find("<main"));
+  EXPECT_EQ(summary.find("negative-shininess"), std::string::npos) << summary;
+  EXPECT_NE(page.find("table/negative-shininess: refused, as expected: "), std::string::npos);
   expect_refused({"verify"}, "give scenes, or --hard-cases");
   expect_refused({"verify", "--hard-cases", "nowhere"}, "nowhere: no hard case");
   expect_refused({"verify", "--hard-cases", "--set", "anchor=span"}, "its scene and settings");
+}
+
+TEST_F(Program, LinesOfHardCasesHaveEqualColumnsAndCountInWords) {
+  const std::string name = "control/table-between-spans-of-two-materials";
+  const ProcessOutput output =
+      run_for_answer("verify --hard-cases " + name + " channels/depth-cue-too-steep");
+  const std::size_t second = output.text.find('\n') + 1;
+  EXPECT_EQ(output.text.find("stalls: "), output.text.find("overflow: ") - second) << output.text;
+  EXPECT_NE(output.text.find("overflow: 1 triangle; "), std::string::npos) << output.text;
+  EXPECT_NE(output.text.find("; 1 method, worst phong"), std::string::npos) << output.text;
 }
 
 TEST_F(Program, VerifyChecksTheErrorOfEveryPixel) {
