@@ -154,13 +154,16 @@ class Drawing {
   void add_series(std::size_t i) {
     begin_series(i);
     std::string path;
-    bool joined = false;
+    const PlotPoint* last = nullptr;  // that is joined
     for (const PlotPoint& point : chart_.series[i].points) {
       const bool shown = drawn(point);
       if (shown) {
-        path += fmt::format("{}{:.1f} {:.1f}", joined ? "L" : "M", across(point.x), down(point.y));
+        const double x = across(point.x), y = down(point.y);
+        path += fmt::format("{}{:.1f} {:.1f}", last != nullptr ? "L" : "M", x, y);
+        if (last != nullptr && has_line(i))
+          labels_.avoid_line(across(last->x), down(last->y), x, y);
       }
-      joined = shown;
+      last = shown ? &point : nullptr;
     }
     if (has_line(i)) add_path(i, path);
     const auto& points = chart_.series[i].points;
@@ -179,19 +182,25 @@ class Drawing {
                        anchor);
   }
 
-  // After all points, which they keep clear of. A label pushed away is tied to its point.
+  // After all points, which they keep clear of; those on the right first, since right of a point is
+  // the first choice. A label pushed away is tied to its point.
   void add_labels() {
+    std::vector<const PlotPoint*> points;
     for (const PlotSeries& series : chart_.series) {
       for (const PlotPoint& point : series.points) {
-        if (point.label.empty() || !drawn(point)) continue;
-        const double x = across(point.x), y = down(point.y);
-        const Box box = labels_.place(x, y, text_width(point.label));
-        const double near_x = std::clamp(x, box.left, box.right);
-        const double near_y = std::clamp(y, box.top, box.bottom);
-        constexpr double kApart = 13;
-        if (std::hypot(near_x - x, near_y - y) > kApart) add_line(x, y, near_x, near_y, "#999");
-        add_text(near_x, box.bottom - 2, label_style(box, x), point.label);
+        if (!point.label.empty() && drawn(point)) points.push_back(&point);
       }
+    }
+    std::stable_sort(points.begin(), points.end(),
+                     [](const PlotPoint* a, const PlotPoint* b) { return a->x > b->x; });
+    for (const PlotPoint* const point : points) {
+      const double x = across(point->x), y = down(point->y);
+      const Box box = labels_.place(x, y, text_width(point->label));
+      const double near_x = std::clamp(x, box.left, box.right);
+      const double near_y = std::clamp(y, box.top, box.bottom);
+      constexpr double kApart = 13;
+      if (std::hypot(near_x - x, near_y - y) > kApart) add_line(x, y, near_x, near_y, "#999");
+      add_text(near_x, box.bottom - 2, label_style(box, x), point->label);
     }
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -28,12 +29,21 @@ struct Box {
   }
 };
 
-// Finds places for labels beside points, clear of all points and of earlier labels.
+// Finds places for labels beside points, clear of all points and lines and of earlier labels.
 class Labels {
  public:
   explicit Labels(const Box& frame) : frame_(frame) {}
 
   void avoid(double x, double y) { taken_.push_back({x - 4, y - 4, x + 4, y + 4}); }
+
+  // The line from one point to another, in steps that no label fits between.
+  void avoid_line(double x0, double y0, double x1, double y1) {
+    const int steps = 1 + static_cast<int>(std::hypot(x1 - x0, y1 - y0) / (kTextHeight / 2));
+    for (int i = 0; i <= steps; ++i) {
+      const double x = x0 + (x1 - x0) * i / steps, y = y0 + (y1 - y0) * i / steps;
+      taken_.push_back({x - 1, y - 1, x + 1, y + 1});
+    }
+  }
 
   // The nearest free place. If none is free, beside the point, over whatever is there.
   Box place(double x, double y, double width) {

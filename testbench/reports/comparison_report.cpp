@@ -79,6 +79,12 @@ Picture error_picture(const MethodResult& result, const Comparison& comparison) 
 
 using Better = Metric::Better;
 
+// To a millionth: less is the rounding of doubles, by which no method is better than another.
+double meaningful(double lsb) {
+  constexpr double kSteps = 1e6;
+  return std::round(kSteps * lsb) / kSteps;
+}
+
 // A measure of a method. Those of cost are not filled in for the limit.
 struct MethodColumn {
   std::string_view name, unit, meaning;
@@ -154,12 +160,18 @@ constexpr MethodColumn kMethodColumns[] = {
        return wall_clock_of_phong(c) / r.wall_clock_ns_per_pixel;
      }},
     {"max_lsb", "LSB", "largest error against exact Phong", Better::less, false,
-     [](const MethodResult& r, const Comparison&) -> MetricValue { return r.error.largest_lsb; }},
+     [](const MethodResult& r, const Comparison&) -> MetricValue {
+       return meaningful(r.error.largest_lsb);
+     }},
     {"rms_lsb", "LSB", "root of its mean square", Better::less, false,
-     [](const MethodResult& r, const Comparison&) -> MetricValue { return r.error.rms_lsb(); }},
+     [](const MethodResult& r, const Comparison&) -> MetricValue {
+       return meaningful(r.error.rms_lsb());
+     }},
     {"seam_lsb", "LSB", "largest jump of the error across an edge that two triangles share",
      Better::less, false,
-     [](const MethodResult& r, const Comparison&) -> MetricValue { return r.largest_seam_lsb; }},
+     [](const MethodResult& r, const Comparison&) -> MetricValue {
+       return meaningful(r.largest_seam_lsb);
+     }},
 };
 
 Cell cell(const MethodColumn& column, const MethodResult& r, const Comparison& comparison) {
@@ -170,14 +182,16 @@ Cell cell(const MethodColumn& column, const MethodResult& r, const Comparison& c
 // A cost of a method, if it has one.
 using CostOf = std::function<std::optional<double>(const MethodResult&)>;
 
-// The methods with the least error for their cost, the cheapest first.
+// The methods with the least error for their cost, the cheapest first; of those whose errors are as
+// good as the same, the cheapest alone.
 std::vector<std::size_t> best_methods(const Comparison& comparison, const CostOf& cost) {
   std::vector<std::optional<ParetoPoint>> points;
   for (const MethodResult& r : comparison.methods) {
     std::optional<double> value;
     if (r.refused.empty() && !r.is_limit) value = cost(r);
-    points.push_back(value ? std::make_optional(ParetoPoint{*value, r.error.largest_lsb})
-                           : std::nullopt);
+    points.push_back(value
+                         ? std::make_optional(ParetoPoint{*value, meaningful(r.error.largest_lsb)})
+                         : std::nullopt);
   }
   return pareto_front(points);
 }
@@ -217,6 +231,31 @@ std::vector<std::string> summary_of(const Comparison& comparison) {
                     best(area_times_time(comparison), "{} {:.0f} LUT·ns and {:.2f} LSB")));
   }
   return summary;
+}
+
+// All methods, and the front of those with the least error for their cost.
+Chart accuracy_against(const Comparison& comparison, const CostOf& cost, std::string title,
+                       std::string x_label) {
+  Chart chart;
+  chart.title = name_of(comparison) + std::move(title);
+  chart.x_label = std::move(x_label);
+  chart.y_label = "largest error, LSB";
+  chart.log_x = chart.log_y = true;
+  const auto point = [&cost](const MethodResult& r, std::string label) {
+    // Methods that equal Phong but for the last bits stand on the floor of the plot.
+    constexpr double kFloor = 0.01;
+    return PlotPoint{*cost(r), std::max(kFloor, r.error.largest_lsb), std::move(label)};
+  };
+  PlotSeries methods = {"methods", {}, false}, front = {"least error for its cost", {}};
+  for (const MethodResult& r : comparison.methods) {
+    if (!r.refused.empty() || r.is_limit || !cost(r)) continue;
+    methods.points.push_back(point(r, std::string(r.name)));
+  }
+  for (const std::size_t i : best_methods(comparison, cost)) {
+    front.points.push_back(point(comparison.methods[i], ""));
+  }
+  chart.series = {std::move(methods), std::move(front)};
+  return chart;
 }
 
 }  // namespace
@@ -290,11 +329,11 @@ nlohmann::ordered_json comparison_json(const Comparison& comparison) {
                 {"speed_over_phong", phong / r.wall_clock_ns_per_pixel},
                 {"break_even_pixels", pays}});
     }
-    j.update({{"max_lsb", r.error.largest_lsb},
+    j.update({{"max_lsb", meaningful(r.error.largest_lsb)},
               {"max_over_taylor", finite_or_null(r.error.largest_lsb / taylor)},
-              {"rms_lsb", r.error.rms_lsb()},
+              {"rms_lsb", meaningful(r.error.rms_lsb())},
               {"psnr_db", finite_or_null(r.error.psnr_db())},
-              {"seam_lsb", r.largest_seam_lsb}});
+              {"seam_lsb", meaningful(r.largest_seam_lsb)}});
     methods.push_back(std::move(j));
   }
   return {{"scene", comparison.scene},
@@ -323,29 +362,9 @@ std::string comparison_csv(const Comparison& comparison) {
   return text;
 }
 
-// All methods, and the front of those with the least error for their cost.
-Chart accuracy_against(const Comparison& comparison, const CostOf& cost, std::string title,
-                       std::string x_label) {
-  Chart chart;
-  chart.title = name_of(comparison) + std::move(title);
-  chart.x_label = std::move(x_label);
-  chart.y_label = "largest error, LSB";
-  chart.log_x = chart.log_y = true;
-  const auto point = [&cost](const MethodResult& r, std::string label) {
-    // Methods that equal Phong but for the last bits stand on the floor of the plot.
-    constexpr double kFloor = 0.01;
-    return PlotPoint{*cost(r), std::max(kFloor, r.error.largest_lsb), std::move(label)};
-  };
-  PlotSeries methods = {"methods", {}, false}, front = {"least error for its cost", {}};
-  for (const MethodResult& r : comparison.methods) {
-    if (!r.refused.empty() || r.is_limit || !cost(r)) continue;
-    methods.points.push_back(point(r, std::string(r.name)));
-  }
-  for (const std::size_t i : best_methods(comparison, cost)) {
-    front.points.push_back(point(comparison.methods[i], ""));
-  }
-  chart.series = {std::move(methods), std::move(front)};
-  return chart;
+Chart accuracy_against_time(const Comparison& comparison) {
+  return accuracy_against(comparison, time_of_units(), ": accuracy against time",
+                          "ns a pixel on the setup engine's units");
 }
 
 void write_comparison_page(const Comparison& comparison, const std::string& render,
@@ -393,9 +412,7 @@ void write_comparison_page(const Comparison& comparison, const std::string& rend
     page.pictures[page.rows.size() - 1] = {{"result", picture}, {"error map", error}};
   }
   write_text(folder / fmt::format("{}-methods.html", scene), result_page(page));
-  write_text(folder / fmt::format("{}-methods.svg", scene),
-             svg(accuracy_against(comparison, time_of_units(), ": accuracy against time",
-                                  "ns a pixel on the setup engine's units")));
+  write_text(folder / fmt::format("{}-methods.svg", scene), svg(accuracy_against_time(comparison)));
   if (units) {
     write_text(folder / fmt::format("{}-area.svg", scene),
                svg(accuracy_against(comparison, area_times_time(comparison),

@@ -166,5 +166,27 @@ TEST(Labels, DoNotOverlap) {
   }
 }
 
+TEST(Labels, StandBesideLines) {
+  Labels labels({0, 0, 640, 440});
+  labels.avoid(100, 200);
+  labels.avoid_line(100, 200, 600, 180);
+  const Box box = labels.place(100, 200, 80);
+  const auto line = [](double x) { return 200 - (x - 100) * 20 / 500; };
+  EXPECT_TRUE(box.right < 100 || box.bottom < line(box.right) || box.top > line(box.left))
+      << box.left << ", " << box.top;
+}
+
+// The label of a point at the beginning of a line does not lie on it.
+TEST(Plot, LinesDoNotStrikeThroughLabels) {
+  const auto label_y = [](bool joined) {
+    const PlotSeries series = {"a", {{0, 5, "here"}, {9, 5, ""}, {9, 0, ""}, {9, 9, ""}}, joined};
+    const Chart chart = {"", "", "", false, false, true, {series}};
+    const std::string text = svg(chart);
+    const std::string before = text.substr(0, text.find(">here<"));
+    return before.substr(before.rfind(" y=\""), 9);
+  };
+  EXPECT_NE(label_y(true), label_y(false));
+}
+
 }  // namespace
 }  // namespace phongpipe

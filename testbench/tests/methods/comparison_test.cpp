@@ -9,6 +9,7 @@
 #include "testbench/methods/operation_time.h"
 #include "testbench/reports/comparison_report.h"
 #include "testbench/tests/methods/result_of.h"
+#include "testbench/tests/occurrences.h"
 
 namespace phongpipe {
 namespace {
@@ -127,6 +128,21 @@ TEST(Comparison, MethodsOfTheOtherHighlightAreComparedWithTheirOwnPhong) {
   const MethodResult& result = result_of(c, "duff-eq17");
   EXPECT_NE(result.note.find("R·V"), std::string::npos);
   EXPECT_LT(result.error.largest_lsb, 1e-6);
+}
+
+// Rounding of doubles makes no method better than another: of those that equal exact Phong only the
+// cheapest is on the front, and all have the error 0.
+TEST(Comparison, MethodsOfTheSameErrorDoNotShareAFront) {
+  const Comparison c = compare_scene("sphere");
+  double cheapest_ns = result_of(c, "phong").ns_per_pixel;
+  for (const char* name : {"duff", "duff-blinn", "duff-eq17", "duff-eq33", "duff-eq34"}) {
+    ASSERT_LT(result_of(c, name).error.largest_lsb, 1e-6) << name;
+    cheapest_ns = std::min(cheapest_ns, result_of(c, name).ns_per_pixel);
+  }
+  const std::vector<PlotPoint> front = accuracy_against_time(c).series.back().points;
+  EXPECT_EQ(front.back().x, cheapest_ns);
+  EXPECT_GT(front[front.size() - 2].y, front.back().y);
+  EXPECT_EQ(occurrences(comparison_csv(c), "e-"), 0U) << comparison_csv(c);
 }
 
 TEST(Comparison, CsvHasARowAMethodAndEqualColumns) {
