@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/datapath_registers.h"
 #include "sim/pipeline.h"
+#include "sim/signals/datapath_signals.h"
 #include "testbench/cosim/divergence.h"
 #include "testbench/rtl/rtl_signals.h"
 

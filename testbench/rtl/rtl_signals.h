@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/datapath_registers.h"
+#include "sim/signals/datapath_signals.h"
 #include "testbench/rtl/rtl_library.h"
 
 namespace phongpipe {

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "sim/datapath_registers.h"
 #include "sim/pipeline.h"
+#include "sim/signals/datapath_signals.h"
 #include "testbench/accuracy/error_chain.h"
 #include "testbench/cosim/effect_set.h"
 #include "testbench/hardware/hardware.h"

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/datapath_registers.h"
+#include "sim/signals/datapath_signals.h"
 
 namespace phongpipe {
 

@@ -10,7 +10,7 @@
 #include <regex>
 #include <set>
 
-#include "sim/datapath_registers.h"
+#include "sim/signals/datapath_signals.h"
 #include "testbench/cases/random_datapath.h"
 #include "testbench/rtl/rtl_library.h"
 #include "testbench/rtl/rtl_signals.h"

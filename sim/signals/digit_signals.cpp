@@ -1,49 +1,38 @@
-#include "sim/digit_signals.h"
-
-#include <fmt/format.h>
+#include "sim/signals/block_signals.h"
+#include "sim/signals/signal_list.h"
 
 namespace phongpipe {
 namespace {
 
 using Words = DatapathPixel::SerialWords;
 
-class DigitTable {
+class DigitTable : public SignalList {
  public:
   explicit DigitTable(const DatapathConfiguration& configuration)
-      : f_(configuration), digits_(configuration.serial_digits()) {}
-
-  std::vector<DatapathSignal> all() {
+      : SignalList(configuration), digits_(configuration.serial_digits()) {
     add_control();
     add_place(1, "s1_place");
-    add(1, "s1_first", 1, [](const DatapathRegisters& r) { return r.in_stage(1).step == 0; });
+    add_digit(1, "s1_first", 1, [](const DatapathRegisters& r) { return r.in_stage(1).step == 0; });
     // From the memory. Of a span's first pixel the digits are at the port instead.
     add_word("s1_word", 1, &Words::v, &Words::read_d1, Meaning::further_pixels);
     add_carry("v_carry", &Words::next_v, &Words::v);
     add_carry("d1_carry", &Words::next_d1, &Words::d1);
     add_place(2, "s2_place");
     add_word("s2_word", 2, &Words::next_v, &Words::next_d1, Meaning::every_pixel);
-    return std::move(signals_);
   }
 
  private:
   template <typename Value>
-  DatapathSignal& add(int stage, const char* name, int width, Value value) {
-    DatapathSignal signal;
-    signal.scope = "differencer";
-    signal.name = name;
-    signal.stage = stage;
+  DatapathSignal& add_digit(int stage, const char* name, int width, Value value) {
+    DatapathSignal& signal = add_register(stage, "differencer", name, width, value);
     signal.of_digit = true;
-    signal.width = width;
-    signal.value = [value](const DatapathRegisters& r) {
-      return static_cast<std::int64_t>(value(r));
-    };
-    return signals_.emplace_back(std::move(signal));
+    return signal;
   }
 
   void add_control() {
     const int digits = digits_, last = f_.interval_cycles() - 1;
     const auto control = [this](int stage, const char* name, int width, auto value) {
-      add(stage, name, width, value).meaning = Meaning::always;
+      add_digit(stage, name, width, value).meaning = Meaning::always;
     };
     control(0, "idle", 1, [](const DatapathRegisters& r) { return r.next_digit() == 0; });
     control(0, "series", kSeriesBits,
@@ -62,11 +51,11 @@ class DigitTable {
 
   // Series and digit, in one word.
   void add_place(int stage, const char* name) {
-    add(stage, name, kSeriesBits + kDigitPlaceBits,
-        [stage, digits = digits_](const DatapathRegisters& r) {
-          const int number = r.digit_in(stage);
-          return number / digits << kDigitPlaceBits | number % digits;
-        });
+    add_digit(stage, name, kSeriesBits + kDigitPlaceBits,
+              [stage, digits = digits_](const DatapathRegisters& r) {
+                const int number = r.digit_in(stage);
+                return number / digits << kDigitPlaceBits | number % digits;
+              });
   }
 
   // The words that the digit in a stage is of.
@@ -92,12 +81,12 @@ class DigitTable {
                 Meaning meaning) {
     int lsb = 0;
     for (const auto& [part, suffix] : {std::pair(v, "v"), std::pair(d1, "d1")}) {
-      DatapathSignal& digit = add(stage, "", kDigitBits,
-                                  [part = part, words = words_in(stage),
-                                   below = bits_below(stage)](const DatapathRegisters& r) {
-                                    constexpr std::int64_t kDigitMask = (1 << kDigitBits) - 1;
-                                    return words(r).*part >> below(r) & kDigitMask;
-                                  });
+      DatapathSignal& digit = add_digit(stage, "", kDigitBits,
+                                        [part = part, words = words_in(stage),
+                                         below = bits_below(stage)](const DatapathRegisters& r) {
+                                          constexpr std::int64_t kDigitMask = (1 << kDigitBits) - 1;
+                                          return words(r).*part >> below(r) & kDigitMask;
+                                        });
       digit.name = fmt::format("{}_{}", name, suffix);
       digit.meaning = meaning;
       digit.packed = name;
@@ -109,21 +98,20 @@ class DigitTable {
   // What the digits before that of stage 1 carry: theirs of the sum are less than those of what was
   // added.
   void add_carry(const char* name, std::int64_t Words::*sum, std::int64_t Words::*added) {
-    add(1, name, 1, [=, words = words_in(1), below = bits_below(1)](const DatapathRegisters& r) {
-      const std::int64_t mask = (std::int64_t{1} << below(r)) - 1;
-      return (words(r).*sum & mask) < (words(r).*added & mask);
-    });
+    add_digit(1, name, 1,
+              [=, words = words_in(1), below = bits_below(1)](const DatapathRegisters& r) {
+                const std::int64_t mask = (std::int64_t{1} << below(r)) - 1;
+                return (words(r).*sum & mask) < (words(r).*added & mask);
+              });
   }
 
-  const DatapathConfiguration& f_;
   int digits_;
-  std::vector<DatapathSignal> signals_;
 };
 
 }  // namespace
 
 std::vector<DatapathSignal> digit_signals(const DatapathConfiguration& configuration) {
-  return DigitTable(configuration).all();
+  return DigitTable(configuration).take();
 }
 
 }  // namespace phongpipe

@@ -1,15 +1,12 @@
-#include "sim/lane_start_signals.h"
-
-#include <fmt/format.h>
+#include "sim/signals/block_signals.h"
+#include "sim/signals/signal_list.h"
 
 namespace phongpipe {
 namespace {
 
-class LaneStartTable {
+class LaneStartTable : public SignalList {
  public:
-  explicit LaneStartTable(const DatapathConfiguration& configuration) : f_(configuration) {}
-
-  std::vector<DatapathSignal> all() {
+  explicit LaneStartTable(const DatapathConfiguration& configuration) : SignalList(configuration) {
     for (int number = 1; number <= kLaneStages; ++number) add_kept(number);
     add_place();
     for (int c = 0; c < f_.channels && f_.diffuse; ++c) {
@@ -31,7 +28,6 @@ class LaneStartTable {
         return SeriesStart{span.cue.v, span.cue.d1, 0};
       });
     }
-    return std::move(signals_);
   }
 
  private:
@@ -41,22 +37,18 @@ class LaneStartTable {
 
   // `number`: of the stage, in RTL's names. `value`: of the span in it.
   template <typename Value>
-  DatapathSignal& add(int number, const std::string& scope, const std::string& name, int width,
-                      Value value) {
+  DatapathSignal& add_start(int number, const std::string& scope, const std::string& name,
+                            int width, Value value) {
     const int stage = number - kLaneStages - 1;
-    DatapathSignal signal;
-    signal.scope = scope;
-    signal.name = name;
-    signal.stage = stage;
+    DatapathSignal& signal =
+        add_register(stage, scope, name, width, [stage, value](const DatapathRegisters& registers) {
+          const std::optional<Span>& span = registers.before_lanes(stage);
+          return span ? static_cast<std::int64_t>(value(*span)) : 0;
+        });
     signal.meaning = Meaning::first_pixel;
-    signal.width = width;
-    signal.value = [stage, value](const DatapathRegisters& registers) {
-      const std::optional<Span>& span = registers.before_lanes(stage);
-      return span ? static_cast<std::int64_t>(value(*span)) : 0;
-    };
-    return signals_.emplace_back(std::move(signal));
+    return signal;
   }
-  static std::string at(int number, const char* name) {
+  static std::string at_lanes(int number, const char* name) {
     return fmt::format("l{}_{}", number, name);
   }
 
@@ -65,8 +57,8 @@ class LaneStartTable {
     int lsb = 0;
     const auto kept = [&](const std::string& scope, const char* name, int width,
                           auto value) -> DatapathSignal& {
-      DatapathSignal& signal = add(number, scope, at(number, name), width, value);
-      signal.packed = at(number, "kept");
+      DatapathSignal& signal = add_start(number, scope, at_lanes(number, name), width, value);
+      signal.packed = at_lanes(number, "kept");
       signal.rtl_lsb = lsb;
       lsb += width;
       return signal;
@@ -77,9 +69,7 @@ class LaneStartTable {
           kept(fmt::format("channel[{}]", c), "level", width, [c, width](const Span& span) {
             return wrap_to(span.level[static_cast<std::size_t>(c)], width);
           });
-      level.unit = "LSB";
-      level.fraction_bits = f_.diffuse_fraction_bits;
-      level.is_signed = true;
+      in_units(level, "LSB", f_.diffuse_fraction_bits, true);
     }
     kept("", "highlight", 1, [](const Span& span) { return span.highlight; });
     kept("", "step_specular", 1, [](const Span& span) { return span.step_specular; });
@@ -87,7 +77,8 @@ class LaneStartTable {
     kept("", "first_pass", 1, [](const Span& span) { return span.first_pass; });
     kept("", "y", kCoordinateBits, [](const Span& span) { return span.row.y; });
 
-    DatapathSignal& held = add(number, "", at(number, "held"), 1, [](const Span&) { return 1; });
+    DatapathSignal& held =
+        add_start(number, "", at_lanes(number, "held"), 1, [](const Span&) { return 1; });
     held.packed = "held";
     held.rtl_lsb = number - 1;
     held.meaning = Meaning::always;
@@ -96,17 +87,18 @@ class LaneStartTable {
   void add_place() {
     const int lanes = f_.lanes();
     for (int number = 1; number <= kLaneStages; ++number) {
-      add(number, "", at(number, "x"), kCoordinateBits,
-          [](const Span& span) { return span.row.x; });
+      add_start(number, "", at_lanes(number, "x"), kCoordinateBits,
+                [](const Span& span) { return span.row.x; });
     }
-    add(1, "", "l1_length", kLengthBits, [](const Span& span) { return span.row.length; });
-    add(2, "", "l2_rest", kCoordinateBits, [](const Span& span) { return span.row.length - 1; });
-    add(3, "", "l3_groups", kLengthBits,
-        [lanes](const Span& span) { return pixels_of_lane(span.row.length, 0, lanes); });
+    add_start(1, "", "l1_length", kLengthBits, [](const Span& span) { return span.row.length; });
+    add_start(2, "", "l2_rest", kCoordinateBits,
+              [](const Span& span) { return span.row.length - 1; });
+    add_start(3, "", "l3_groups", kLengthBits,
+              [lanes](const Span& span) { return pixels_of_lane(span.row.length, 0, lanes); });
     for (int k = 1; k < lanes; ++k) {
-      DatapathSignal& x =
-          add(3, fmt::format("lane[{}]", k), "x", kCoordinateBits,
-              [k, lanes](const Span& span) { return -pixels_of_lane(span.row.length, k, lanes); });
+      DatapathSignal& x = add_start(
+          3, fmt::format("lane[{}]", k), "x", kCoordinateBits,
+          [k, lanes](const Span& span) { return -pixels_of_lane(span.row.length, k, lanes); });
       x.is_signed = true;
       x.unit = kMinusPixelsToCome;
     }
@@ -117,11 +109,9 @@ class LaneStartTable {
   void add_series(const std::string& scope, const char* unit, int width, int fraction_bits, Of of) {
     const auto word = [&](int number, const std::string& block, const char* name, auto sum) {
       DatapathSignal& signal =
-          add(number, block, at(number, name), width,
-              [of, sum, width](const Span& span) { return wrap_to(sum(of(span)), width); });
-      signal.unit = unit;
-      signal.fraction_bits = fraction_bits;
-      signal.is_signed = true;
+          add_start(number, block, at_lanes(number, name), width,
+                    [of, sum, width](const Span& span) { return wrap_to(sum(of(span)), width); });
+      in_units(signal, unit, fraction_bits, true);
     };
     using Start = const SeriesStart&;
     for (int number = 1; number <= kLaneStages; ++number) {
@@ -146,15 +136,12 @@ class LaneStartTable {
     word(3, block, "lane_2", [](Start s) { return s.v + 2 * s.d1 + s.d2; });
     word(3, block, "both_and_d2", [](Start s) { return s.d1 + 2 * s.d2; });
   }
-
-  const DatapathConfiguration& f_;
-  std::vector<DatapathSignal> signals_;
 };
 
 }  // namespace
 
 std::vector<DatapathSignal> lane_start_signals(const DatapathConfiguration& configuration) {
-  return LaneStartTable(configuration).all();
+  return LaneStartTable(configuration).take();
 }
 
 }  // namespace phongpipe
