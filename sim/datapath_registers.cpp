@@ -24,7 +24,7 @@ DatapathRegisters::DatapathRegisters(const DatapathConfiguration& configuration,
     return;
   }
   const auto set_width = [&](Stepper& stepper, int width) {
-    stepper.set_width(width, is_serial() ? configuration.serial_digits() * kDigitBits : width);
+    stepper.set_width(width, is_serial() ? configuration.serial_digits() : 0);
   };
   for (Stepper& stepper : diffuse_) set_width(stepper, configuration.diffuse_width());
   set_width(specular_, configuration.specular_width());
@@ -74,9 +74,10 @@ int DatapathRegisters::clocks_since_entry(int stage) const {
   return first - 1;
 }
 
-void DatapathRegisters::Stepper::set_width(int register_width, int sum_width) {
+void DatapathRegisters::Stepper::set_width(int register_width, int digits) {
   width = register_width;
-  now = ForwardDifferencer(sum_width);
+  serial = digits > 0;
+  now = ForwardDifferencer(serial ? digits * kDigitBits : width);
 }
 
 void DatapathRegisters::Stepper::load(const SeriesStart& start, bool stepping) {
@@ -87,6 +88,7 @@ void DatapathRegisters::Stepper::load(const SeriesStart& start, bool stepping) {
 }
 
 void DatapathRegisters::Stepper::set_serial_words() {
+  if (!serial) return;
   DatapathPixel::SerialWords& words = pixel.serial;
   words.v = now.v();
   words.d1 = now.d1();

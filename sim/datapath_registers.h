@@ -126,7 +126,9 @@ class DatapathRegisters : public ClockedDatapath {
     int width = 0;           // of the register
     ForwardDifferencer now;  // of the serial datapath: of whole digits
     DatapathPixel::Series pixel;
-    void set_width(int register_width, int sum_width);
+    bool serial = false;
+    // `digits`: of the serial datapath; 0 in the others.
+    void set_width(int register_width, int digits);
     void load(const SeriesStart& start, bool stepping);
     void step(bool second);
     void set_serial_words();
