@@ -72,6 +72,20 @@ void cover(const ScreenTriangle& triangle, int width, int height, std::vector<Ro
   }
 }
 
+bool covers_a_pixel(const Scene& scene, const Geometry& geometry) {
+  std::vector<RowSpan> rows;
+  const auto covers = [&](const ScreenTriangle& triangle) {
+    cover(triangle, scene.image.width, scene.image.height, rows);
+    return !rows.empty();
+  };
+  return std::any_of(geometry.triangles.begin(), geometry.triangles.end(), covers);
+}
+
+InputError nothing_covered(const Scene& scene) {
+  return {scene.source, 0,
+          "nothing of the scene covers a pixel; look at the camera and the objects"};
+}
+
 int longest_row(const std::vector<RowSpan>& rows) {
   int longest = 0;
   for (const RowSpan& row : rows) longest = std::max(longest, row.length);

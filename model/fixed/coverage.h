@@ -6,6 +6,7 @@
 
 #include "model/fixed/span.h"
 #include "model/scene/geometry.h"
+#include "model/scene/input_error.h"
 
 namespace phongpipe {
 
@@ -13,6 +14,10 @@ namespace phongpipe {
 // pixel is covered if its centre is inside, or on a top or left edge. The triangle may turn either
 // way.
 void cover(const ScreenTriangle& triangle, int width, int height, std::vector<RowSpan>& rows);
+
+bool covers_a_pixel(const Scene& scene, const Geometry& geometry);
+// The refusal of a scene that does not.
+InputError nothing_covered(const Scene& scene);
 
 // Length of the longest row in pixels; `rows` is not empty.
 int longest_row(const std::vector<RowSpan>& rows);

@@ -7,6 +7,7 @@
 
 #include "model/files/spelling.h"
 #include "model/files/triangle_csv.h"
+#include "model/fixed/coverage.h"
 #include "model/fixed/model_frame.h"
 #include "model/fixed/prepared_frame.h"
 #include "model/scene/input_error.h"
@@ -137,6 +138,9 @@ int render(const RenderCommandOptions& options) {
                                          is_grey(scene, geometry) ? 1 : 3));
   }
   progress.clear();
+  if (!covers_a_pixel(scene, geometry)) {
+    tell("note: " + printable(nothing_covered(scene).what()));
+  }
   for (const std::string& note : geometry.notes) tell("note: " + printable(note));
   return 0;
 }

@@ -354,10 +354,7 @@ VerificationResult verify(const std::shared_ptr<const PreparedScene>& scene,
       if (!ranges.fits()) result.overflowing.push_back(ranges);
     }
   }
-  if (result.pixels == 0) {
-    throw InputError(scene->scene.source, 0,
-                     "nothing of the scene covers a pixel; look at the camera and the objects");
-  }
+  if (result.pixels == 0) throw nothing_covered(scene->scene);
   AccuracyOptions wanted;
   wanted.pictures = options.pictures;
   wanted.one_core = options.one_core;

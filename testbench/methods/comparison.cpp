@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "model/scene/input_error.h"
+#include "model/fixed/coverage.h"
 #include "model/scene/subdivision.h"
 #include "testbench/methods/curves.h"
 #include "testbench/methods/operation_time.h"
@@ -61,8 +61,7 @@ template <typename Measure>
 double amortised(const MethodCosts& costs, const Visibility& frame, Measure measure) {
   const double shared = measure(costs.triangle) * static_cast<double>(frame.triangles) +
                         measure(costs.span) * static_cast<double>(frame.spans);
-  return measure(costs.pixel + costs.combine) +
-         (frame.shaded == 0 ? 0 : shared / static_cast<double>(frame.shaded));
+  return measure(costs.pixel + costs.combine) + shared / static_cast<double>(frame.shaded);
 }
 
 bool has_highlight(const Geometry& geometry) {
@@ -158,8 +157,7 @@ class SceneComparison {
           std::chrono::steady_clock::now() - start;
       least = std::min(least, taken.count());
     }
-    result.wall_clock_ns_per_pixel =
-        least / static_cast<double>(std::max<std::size_t>(1, comparison_.pixels));
+    result.wall_clock_ns_per_pixel = least / static_cast<double>(comparison_.pixels);
     return frame;
   }
 
@@ -216,6 +214,7 @@ Comparison compare(const Scene& scene, const Hardware& hardware,
   comparison.power = power;
   comparison.scene = scene.source;
   const Geometry geometry = make_geometry(scene);
+  if (!covers_a_pixel(scene, geometry)) throw nothing_covered(scene);
   const EffectBlocks blocks = derive_blocks(hardware.formats, scene, geometry);
   comparison.hardware = resolved(hardware, blocks);
   comparison.clock = hardware.technology.clock({hardware.formats, blocks});

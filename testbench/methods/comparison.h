@@ -48,7 +48,8 @@ struct Comparison {
   std::vector<MethodResult> methods;  // the limit of quadratics last
 };
 
-// `power`: how methods compute the power of highlights; an exact power is counted as a table read.
+// Throws InputError if nothing of the scene covers a pixel. `power`: how methods compute the power
+// of highlights; an exact power is counted as a table read.
 Comparison compare(const Scene& scene, const Hardware& hardware,
                    const std::function<void(const std::string&)>& progress,
                    PowerKind power = PowerKind::exact);

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "model/fixed/coverage.h"
 #include "model/shading/methods/lookup.h"
 #include "sim/schedule.h"
 #include "testbench/methods/operation_time.h"
@@ -178,6 +179,7 @@ Curve size_curve(Parts parts, PowerKind power, const ClockFunction& clocks,
 
 Curve block_curve(const std::shared_ptr<const PreparedScene>& scene, const Hardware& hardware,
                   double budget_ns) {
+  if (!covers_a_pixel(scene->scene, scene->geometry)) throw nothing_covered(scene->scene);
   Curve curve;
   curve.title = "Time of each block of the pipeline, " + scene->scene.source;
   curve.x_label = "size of a triangle, pixels";

@@ -61,7 +61,11 @@ TEST_F(Program, BadFilesAreNamedWithTheirLine) {
 }
 
 TEST_F(Program, AnEmptyPictureIsNoPass) {
-  expect_refused({"verify", write_empty_picture()}, "nothing of the scene covers a pixel");
+  const std::string scene = write_empty_picture();
+  const std::string message = "away.toml: nothing of the scene covers a pixel";
+  expect_refused({"verify", scene}, message);
+  expect_refused({"compare", scene}, message);
+  expect_refused({"compare", scene, "--curve", "max-error"}, message);
 }
 
 TEST_F(Program, OutputsThatCannotBeWrittenAreRefusedBeforeTheWork) {

@@ -50,6 +50,19 @@ TEST_F(Program, RenderTakesAnyMethodAndRefusesByName) {
                  "did you mean gouraud");
 }
 
+TEST_F(Program, RenderTellsThatAPictureIsEmpty) {
+  const std::string scene = write_empty_picture();
+  for (const char* how : {"fixed", "real"}) {
+    const ProcessOutput output = run({"render", scene, "--arithmetic", how, "-o", file("a.png")});
+    EXPECT_EQ(output.status, 0) << output.text;
+    EXPECT_NE(output.text.find("note: " + scene + ": nothing of the scene covers a pixel"),
+              std::string::npos)
+        << output.text;
+    EXPECT_TRUE(fs::remove(file("a.png"))) << how;
+  }
+  EXPECT_EQ(lines_of(run({"render", "sphere", "-o", file("b.png")}).text), 0);
+}
+
 TEST_F(Program, PhongRendersWhatThePipelineRefuses) {
   std::string text = shipped_scene("sphere");
   text.replace(text.find("shininess"), 0, "shininess = 0 # ");

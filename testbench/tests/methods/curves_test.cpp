@@ -176,6 +176,12 @@ TEST(Curves, BlocksOfThePipeline) {
   EXPECT_NEAR(at(curve, "span_walker", 1), 3 * clock_ns, clock_ns + 1e-9);
 }
 
+TEST(Curves, BlocksNeedATriangleToShade) {
+  const auto scene = std::make_shared<const PreparedScene>(
+      load_named_scene("sphere", {"scene.object.0.translate=[1000,0,0]"}));
+  EXPECT_THROW(block_curve(scene, load_hardware("default", {}), 100), InputError);
+}
+
 TEST(Curves, BreakEvenIsWhereTheRatioIsOne) {
   const PipelineConfiguration units;
   const Curve curve = break_even_curve(units);
