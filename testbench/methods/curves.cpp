@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "model/fixed/coverage.h"
@@ -305,32 +304,6 @@ Curve exponent_curve(double spread_degrees, const CurveOptions& options) {
 
 Chart chart_of(const Curve& curve) {
   return {curve.title, curve.x_label, curve.y_label, curve.log_x, curve.log_y, true, curve.series};
-}
-
-std::string curve_csv(const Curve& curve) {
-  std::map<double, std::vector<std::string>> rows;
-  std::string text = "x";
-  for (std::size_t i = 0; i < curve.series.size(); ++i) {
-    std::string name = curve.series[i].name;
-    if (name.find_first_of(",\"\n") != std::string::npos) {
-      std::string quoted = "\"";
-      for (const char c : name) quoted += c == '"' ? "\"\"" : std::string(1, c);
-      name = quoted + "\"";
-    }
-    text += "," + name;
-    for (const PlotPoint& point : curve.series[i].points) {
-      auto& row = rows[point.x];
-      row.resize(curve.series.size());
-      row[i] = fmt::format("{}", point.y);
-    }
-  }
-  text += "\n";
-  for (const auto& [x, row] : rows) {
-    text += fmt::format("{}", x);
-    for (const std::string& value : row) text += "," + value;
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace phongpipe

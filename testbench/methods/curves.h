@@ -24,8 +24,6 @@ struct Curve {
 };
 
 Chart chart_of(const Curve& curve);
-// A column x, then a column per series, empty if the series has no point at that x.
-std::string curve_csv(const Curve& curve);
 
 struct CurveOptions {
   std::uint32_t seed = 1;

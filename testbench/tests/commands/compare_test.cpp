@@ -22,11 +22,47 @@ TEST_F(Program, CompareWritesAPageTablesAndCurves) {
   EXPECT_NE(page.find("iVBORw0KGgo"), std::string::npos) << "a picture";
   EXPECT_TRUE(fs::exists(file("sphere-gouraud-error.png")));
   EXPECT_EQ(json("c.json")[0]["methods"][0]["method"], "flat");
-  ASSERT_EQ(run({"compare", "--curve", "size", "--out", folder_.string()}).status, 0);
-  EXPECT_EQ(read_whole_file(file("size.svg")).substr(0, 4), "<svg");
   expect_refused({"compare"}, "nothing to compare");
   expect_refused({"compare", "--curve", "colour"}, "curvature");
   expect_refused({"compare", "--curve", "max-error"}, "compare SCENE --curve max-error");
+}
+
+TEST_F(Program, CurvesAreToldInAFewLinesAndWrittenWhereAsked) {
+  const ProcessOutput told = run({"compare", "--curve", "size", "--out", folder_.string()});
+  ASSERT_EQ(told.status, 0) << told.text;
+  EXPECT_EQ(told.text.rfind("Time of diffuse light\n  clocks a pixel, set-up included, over ", 0),
+            0U)
+      << told.text;
+  EXPECT_LT(lines_of(told.text), 35) << told.text;
+  EXPECT_NE(told.text.find("  more     " + file("size-diffuse.csv") + ", "), std::string::npos)
+      << told.text;
+  EXPECT_EQ(read_whole_file(file("size.svg")).substr(0, 4), "<svg");
+
+  const ProcessOutput csv = run_for_answer("compare --curve size --csv -");
+  EXPECT_EQ(csv.text.rfind("# Time of diffuse light\nx,flat,", 0), 0U) << csv.text;
+  const ProcessOutput answer =
+      run_for_answer("compare --curve size --json - --csv " + file("all.csv"));
+  const auto curves = nlohmann::json::parse(answer.text);
+  ASSERT_EQ(curves.size(), 4U);
+  EXPECT_EQ(curves[0]["title"], "Time of diffuse light");
+  EXPECT_EQ(curves[0]["series"][0]["points"][0][0], 1);
+  EXPECT_EQ(read_whole_file(file("all.csv")), csv.text);
+}
+
+// The blocks of the pipeline are timed for the scene that is given.
+TEST_F(Program, TheCurveOfSizesIsOfItsScene) {
+  const auto curves =
+      nlohmann::json::parse(run_for_answer("compare torus --curve size --json -").text);
+  EXPECT_NE(curves[2]["title"].get<std::string>().find("torus"), std::string::npos) << curves[2];
+}
+
+TEST_F(Program, CompareLeavesNothingOutWithoutAWord) {
+  expect_refused({"compare", "sphere", "--json", "-", "--csv", "-"}, "give one of them a file");
+  expect_refused({"compare", "sphere", "--curve", "exponent"}, "leave out sphere");
+  expect_refused({"compare", "sphere", "torus", "--curve", "size"}, "is of one scene");
+  expect_refused({"compare", "--microvax", "--json", "-"}, "--microvax is a table by itself");
+  expect_refused({"compare", "sphere", "--microvax"}, "--microvax is a table by itself");
+  EXPECT_EQ(run({"compare", "--microvax"}).status, 0);
 }
 
 TEST_F(Program, ComparedJsonAloneGoesToStandardOutput) {
