@@ -167,13 +167,20 @@ void compare_methods(const CompareCommandOptions& options) {
         scene, hardware, [&](const std::string& what) { progress(what); },
         options.power.value_or(PowerKind::exact));
     progress.clear();
-    if (is_told(options)) print_or_throw(comparison_text(comparison));
+    std::vector<std::filesystem::path> files;
+    if (!options.out.empty()) {
+      files =
+          write_comparison_page(comparison, render_command(options, comparison.scene), options.out);
+    }
+    if (is_told(options)) {
+      if (results.size() > 0) print_or_throw("\n");
+      print_or_throw(fmt::format("{}\n", fmt::join(comparison_answer(comparison), "\n")));
+      tell_more(files);
+      print_or_throw("\n" + comparison_text(comparison));
+    }
     results.push_back(comparison_json(comparison));
     const std::string rows = comparison_csv(comparison);
     csv += csv.empty() ? rows : rows.substr(rows.find('\n') + 1);
-    if (!options.out.empty()) {
-      write_comparison_page(comparison, render_command(options, comparison.scene), options.out);
-    }
   }
   write_results(options, results, csv);
 }

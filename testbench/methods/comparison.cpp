@@ -114,6 +114,7 @@ class SceneComparison {
     }
     MethodFrame frame = timed_frame(method, scene, drawn, result);
     if (method.name == method_of(comparison_.hardware, scene_)) {
+      result.of_hardware = true;
       add_note(result, fmt::format("the series of hardware {}", comparison_.hardware.name));
     }
     if (frame.exact_spans > 0) {

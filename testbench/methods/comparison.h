@@ -16,6 +16,7 @@ struct MethodResult {
   std::string_view name, source;
   std::string refused;  // why it cannot render the scene; nothing below is filled in then
   std::string note;
+  bool of_hardware = false;  // what the configured hardware computes, in real arithmetic
   // True for the best quadratics, computed offline and by no method; costs and times are then not
   // filled in.
   bool is_limit = false;

@@ -44,10 +44,10 @@ double wall_clock_of_phong(const Comparison& comparison) {
 std::string subdivision_text(const Comparison& c) {
   if (c.split == 0) return "";
   return fmt::format(
-      "{} triangles over which normals turn by more than {}°, or highlight or light too far, are "
-      "split into {} "
-      "for the fitted quadratics\n",
-      c.split, c.hardware.setup.subdivide_degrees, c.pieces);
+      "split for the fitted quadratics: {} over which normals turn by more than {}°, or highlight "
+      "or light too far, into {}\n",
+      count_text(c.split, "triangle"), c.hardware.setup.subdivide_degrees,
+      count_text(c.pieces, "piece"));
 }
 
 nlohmann::ordered_json operations_json(const OperationCounts& c) {
@@ -207,32 +207,6 @@ CostOf area_times_time(const Comparison& comparison) {
   };
 }
 
-std::vector<std::string> summary_of(const Comparison& comparison) {
-  const auto refused = std::count_if(comparison.methods.begin(), comparison.methods.end(),
-                                     [](const MethodResult& r) { return !r.refused.empty(); });
-  const auto best = [&](const CostOf& cost, const char* format) {
-    std::vector<std::string> texts;
-    for (const std::size_t i : best_methods(comparison, cost)) {
-      const MethodResult& r = comparison.methods[i];
-      texts.push_back(fmt::format(fmt::runtime(format), r.name, *cost(r), r.error.largest_lsb));
-    }
-    return fmt::format("{}", fmt::join(texts, "; "));
-  };
-  std::vector<std::string> summary = {
-      fmt::format("{} methods on {}: {} triangles, {} pixels shaded.", comparison.methods.size(),
-                  comparison.scene, comparison.triangles, comparison.pixels),
-      fmt::format("{} render the scene, {} refused.",
-                  static_cast<std::ptrdiff_t>(comparison.methods.size()) - refused, refused),
-      fmt::format("Least error for their time: {}.",
-                  best(time_of_units(), "{} {:.2f} ns and {:.2f} LSB"))};
-  if (!comparison.hardware.technology.units.empty()) {
-    summary.push_back(
-        fmt::format("Least error for the area × time of hardware that shades a pixel a clock: {}.",
-                    best(area_times_time(comparison), "{} {:.0f} LUT·ns and {:.2f} LSB")));
-  }
-  return summary;
-}
-
 // All methods, and the front of those with the least error for their cost.
 Chart accuracy_against(const Comparison& comparison, const CostOf& cost, std::string title,
                        std::string x_label) {
@@ -260,12 +234,43 @@ Chart accuracy_against(const Comparison& comparison, const CostOf& cost, std::st
 
 }  // namespace
 
+std::vector<std::string> comparison_answer(const Comparison& comparison) {
+  const auto best = [&](const CostOf& cost, const char* format) {
+    std::vector<std::string> texts;
+    for (const std::size_t i : best_methods(comparison, cost)) {
+      const MethodResult& r = comparison.methods[i];
+      texts.push_back(fmt::format(fmt::runtime(format), r.name, *cost(r), r.error.largest_lsb));
+    }
+    return fmt::format("{}", fmt::join(texts, "; "));
+  };
+  const auto& methods = comparison.methods;
+  const auto drawn = std::count_if(methods.begin(), methods.end(),
+                                   [](const MethodResult& r) { return r.refused.empty(); });
+  std::vector<std::string> lines = {
+      fmt::format("{}: {} of {} methods render it.", comparison.scene, drawn, methods.size()),
+      fmt::format("Least error for their time: {}.",
+                  best(time_of_units(), "{} {:.2f} ns a pixel and {:.2f} LSB"))};
+  if (!comparison.hardware.technology.units.empty()) {
+    lines.push_back(
+        fmt::format("Least error for the area × time of hardware that shades a pixel a clock: {}.",
+                    best(area_times_time(comparison), "{} {:.0f} LUT·ns and {:.2f} LSB")));
+  }
+  for (const MethodResult& r : methods) {
+    if (!r.of_hardware) continue;
+    lines.push_back(fmt::format("Hardware {} has {}: {:.2f} ns a pixel and {:.2f} LSB.",
+                                comparison.hardware.name, r.name, r.ns_per_pixel,
+                                r.error.largest_lsb));
+  }
+  return lines;
+}
+
 std::string comparison_text(const Comparison& comparison) {
   std::string text = fmt::format(
-      "{}: {} triangles, {} spans, {} pixels shaded; clock {:.2f} ns ({}, {})\n{}"
+      "{}: {}, {}, {} shaded; clock {:.2f} ns ({}, {})\n{}"
       "{:<20} {:>12} {:>14} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8} {:>8} {:>7}\n"
       "{:<20} {:>12} {:>14} {:>8} {:>8} {:>7} {:>10} {:>8} {:>8} {:>8} {:>7}\n",
-      comparison.scene, comparison.triangles, comparison.spans, comparison.pixels,
+      comparison.scene, count_text(comparison.triangles, "triangle"),
+      count_text(comparison.spans, "span"), count_text(comparison.pixels, "pixel"),
       comparison.clock.ns, kind_text(comparison.clock), comparison.hardware.technology.name,
       subdivision_text(comparison), "method", "a pixel", "a triangle", "clocks", "ns", "speed",
       "pays from", "largest", "largest", "RMS", "seam", "", "+/×/÷/√/read", "+/×/÷/√/read",
@@ -367,14 +372,15 @@ Chart accuracy_against_time(const Comparison& comparison) {
                           "ns a pixel on the setup engine's units");
 }
 
-void write_comparison_page(const Comparison& comparison, const std::string& render,
-                           const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> write_comparison_page(const Comparison& comparison,
+                                                         const std::string& render,
+                                                         const std::filesystem::path& folder) {
   const std::string scene = name_of(comparison);
   std::filesystem::create_directories(folder);
   PageContent page;
   page.title = scene + ": every shading method, its accuracy and its time";
   page.row = "method";
-  page.summary = summary_of(comparison);
+  page.summary = comparison_answer(comparison);
   const bool units = !comparison.hardware.technology.units.empty();
   page.x = units ? "lut_ns" : "ns_per_pixel";
   page.y = "max_lsb";
@@ -411,14 +417,19 @@ void write_comparison_page(const Comparison& comparison, const std::string& rend
     write_text(folder / fmt::format("{}-{}-error.png", scene, r.name), error);
     page.pictures[page.rows.size() - 1] = {{"result", picture}, {"error map", error}};
   }
-  write_text(folder / fmt::format("{}-methods.html", scene), result_page(page));
-  write_text(folder / fmt::format("{}-methods.svg", scene), svg(accuracy_against_time(comparison)));
+  std::vector<std::filesystem::path> files;
+  const auto write = [&](const char* what, const std::string& text) {
+    files.push_back(folder / (scene + what));
+    write_text(files.back(), text);
+  };
+  write("-methods.html", result_page(page));
+  write("-methods.svg", svg(accuracy_against_time(comparison)));
   if (units) {
-    write_text(folder / fmt::format("{}-area.svg", scene),
-               svg(accuracy_against(comparison, area_times_time(comparison),
-                                    ": accuracy against area × time, a pixel a clock",
-                                    "LUTs × clock in ns")));
+    write("-area.svg", svg(accuracy_against(comparison, area_times_time(comparison),
+                                            ": accuracy against area × time, a pixel a clock",
+                                            "LUTs × clock in ns")));
   }
+  return files;
 }
 
 std::string microvax_text() {

@@ -11,10 +11,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_F(Program, CompareWritesAPageTablesAndCurves) {
+TEST_F(Program, CompareWritesAPageAndTables) {
   const ProcessOutput output = run({"compare", "sphere", "--out", folder_.string(), "--json",
                                     file("c.json"), "--csv", file("c.csv")});
   ASSERT_EQ(output.status, 0) << output.text;
+  // The answer, and the files that were written, before the table.
+  const std::string answer = output.text.substr(0, output.text.find("\n\n"));
+  EXPECT_EQ(
+      answer.rfind("sphere: 27 of 28 methods render it.\nLeast error for their time: flat ", 0), 0U)
+      << output.text;
+  EXPECT_NE(answer.find("\nHardware default has weighted: "), std::string::npos) << answer;
+  EXPECT_NE(answer.find("\n  more     " + file("sphere-methods.html") + ", " +
+                        file("sphere-methods.svg") + ", " + file("sphere-area.svg")),
+            std::string::npos)
+      << answer;
+  EXPECT_EQ(lines_of(answer), 5) << answer;
+  EXPECT_LT(answer.size(), output.text.find("\nmethod ")) << output.text;
   const std::string page = read_whole_file(file("sphere-methods.html"));
   for (const char* word : {"\"render\"", "\"--method\"", "\"gouraud\""}) {
     EXPECT_NE(page.find(word), std::string::npos) << word;
@@ -63,6 +75,13 @@ TEST_F(Program, CompareLeavesNothingOutWithoutAWord) {
   expect_refused({"compare", "--microvax", "--json", "-"}, "--microvax is a table by itself");
   expect_refused({"compare", "sphere", "--microvax"}, "--microvax is a table by itself");
   EXPECT_EQ(run({"compare", "--microvax"}).status, 0);
+}
+
+TEST_F(Program, CompareAnswersForEachScene) {
+  const std::string text = run_for_answer("compare screen-triangles two-planes").text;
+  EXPECT_EQ(text.rfind("screen-triangles: ", 0), 0U) << text;
+  EXPECT_NE(text.find("\n\nscreen-triangles: 6 triangles, "), std::string::npos) << text;
+  EXPECT_NE(text.find("\n\ntwo-planes: "), std::string::npos) << text;
 }
 
 TEST_F(Program, ComparedJsonAloneGoesToStandardOutput) {
