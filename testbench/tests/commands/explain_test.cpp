@@ -135,7 +135,8 @@ TEST_F(Explain, RefusesWhatIsNoPixel) {
                    fmt::format("--pixel {}: give X,Y", pixel));
   }
   expect_refused({"explain", "sphere"}, "Give one of --pixel X,Y and --worst");
-  expect_refused({"explain", "sphere", "--worst", "--pixel", "1,2"}, "Give one of --pixel X,Y and --worst");
+  expect_refused({"explain", "sphere", "--worst", "--pixel", "1,2"},
+                 "Give one of --pixel X,Y and --worst");
   expect_refused({"explain", "sphere", "--pixel", "256,0", "--json", output},
                  "x goes from 0 to 255, y from 0 to 255");
   expect_refused({"explain", "sphere", "--pixel", "-1,0"}, "x goes from 0 to 255");
