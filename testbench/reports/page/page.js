@@ -363,7 +363,7 @@
 
   // ---- Parallel coordinates -------------------------------------------------------------------
 
-  const plane = {height: 300, top: 40, bottom: 34, left: 110, right: 60, least: 104};
+  const plane = {height: 300, top: 40, bottom: 34, left: 110, right: 76, least: 104};
   const inner = plane.height - plane.top - plane.bottom;
   const canvas = document.querySelector('#parallel canvas');
   const lines = d3.select('#parallel svg');
@@ -386,8 +386,10 @@
     return {column, scale, heights};
   }
 
-  function marks(dimension) {
-    const axis = d3.axisLeft(dimension.scale).tickSizeOuter(0);
+  // Lines do not run behind the numbers of the first and the last axis: these stand outside.
+  function marks(dimension, isLast) {
+    const outside = isLast && dimension.column.numeric;
+    const axis = (outside ? d3.axisRight : d3.axisLeft)(dimension.scale).tickSizeOuter(0);
     const most = 12;
     if (dimension.column.numeric) {
       const values = [...new Set(dimension.column.values)].filter((value) => value !== null);
@@ -422,7 +424,7 @@
     const axis = lines.append('g').attr('class', 'axis').attr('transform', `translate(${x},0)`)
         .attr('data-name', column.name).attr('tabindex', 0).attr('role', 'group')
         .attr('aria-label', `Filter by ${column.name}`);
-    axis.call(marks(dimension));
+    axis.call(marks(dimension, dimension === dimensions[dimensions.length - 1]));
     const title = axis.append('text').attr('class', 'title').attr('text-anchor', 'middle')
         .attr('y', 18).text(column.short);
     const wide = title.node().getComputedTextLength();
@@ -496,8 +498,11 @@
     if (kept.length < all.length) draw(all, color('out'), 1, 1);
     // One path of many lines would be drawn as one, without the lines showing through each other.
     const bundle = 50;
-    for (let i = 0; i < kept.length; i += bundle) {
-      draw(kept.slice(i, i + bundle), color('passed'), 1.1, alpha);
+    for (const outcome of ['passed', 'failed']) {
+      const rows = kept.filter((row) => hasPassed(row) === (outcome === 'passed'));
+      for (let i = 0; i < rows.length; i += bundle) {
+        draw(rows.slice(i, i + bundle), color(outcome), 1.1, alpha);
+      }
     }
     draw(front, color('front'), 1.8, 0.9);
   }

@@ -125,6 +125,18 @@ const tests = {
     await page.keyboard.press('Escape');
     await expectRows(page, 15);
   },
+  async 'no line runs behind the numbers of the first and the last axis'(page) {
+    const sides = await page.evaluate(() => {
+      const axes = [...document.querySelectorAll('#parallel g.axis')];
+      return [axes[0], axes[axes.length - 1]].map((element) => {
+        const x = element.querySelector('.domain').getBoundingClientRect().x;
+        return [...element.querySelectorAll('.tick text')].map((text) =>
+            Math.sign(text.getBoundingClientRect().x - x));
+      });
+    });
+    assert.ok(sides[0].length > 0 && sides[0].every((side) => side < 0), `${sides[0]}`);
+    assert.ok(sides[1].length > 0 && sides[1].every((side) => side > 0), `${sides[1]}`);
+  },
   async 'a filter is made and cleared by keyboard'(page) {
     await page.focus(`g.axis[data-name="${rom}"]`);
     for (let i = 0; i < 6; ++i) await page.keyboard.press('ArrowDown');
@@ -230,6 +242,22 @@ async function main() {
     assert.strictEqual(await count(page, '#scatter .failed'), 2);
     assert.strictEqual(await count(page, '#scatter .point'), 4);
     assert.match(await page.textContent('#legend'), /not passed/);
+    // So are their lines: each colour of the points is one of the lines', too.
+    const missing = await page.evaluate(() => {
+      const canvas = document.querySelector('#parallel canvas');
+      const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+      const has = (name) => {
+        const [r, g, b] = getComputedStyle(document.documentElement)
+            .getPropertyValue('--' + name).match(/[0-9a-f]{2}/g).map((digits) => parseInt(digits, 16));
+        for (let i = 0; i < data.length; i += 4) {
+          const apart = Math.abs(data[i] - r) + Math.abs(data[i + 1] - g) + Math.abs(data[i + 2] - b);
+          if (data[i + 3] > 100 && apart < 12) return true;
+        }
+        return false;
+      };
+      return ['passed', 'failed'].filter((name) => !has(name));
+    });
+    assert.deepStrictEqual(missing, []);
     assert.strictEqual(await count(page, 'b'), 0);
     assert.match(await page.textContent('#summary'), /<\/script><b>x/);
     await page.locator('tbody button').first().click();
