@@ -155,7 +155,9 @@ const std::vector<RunOption>& run_options() {
        [](Options& o, const std::string& text) {
          o.detail = choice<Detail>("detail", text, kDetails);
        }},
-      {"stall", "0-100", "Random back-pressure: per cent of pixels the framebuffer stalls at",
+      {"stall", "0-100",
+       "Random back-pressure: per cent of pixels, or groups side by side, the framebuffer stalls "
+       "at",
        [](const Options& o) { return std::to_string(o.stall_percent); },
        [](Options& o, const std::string& text) {
          o.stall_percent = static_cast<int>(whole_number("stall", text, 0, 100));

@@ -158,7 +158,9 @@ class TextReport {
     line("largest", fmt::format("{} {}", kErrorParts[largest].name,
                                 list(channels_.of(error.parts[largest]), "{:+.4f}")));
     if (!story_.rtl_agrees()) {
-      line("differs", "the RTL shades it in another colour; `phongpipe verify` names the register");
+      line("differs", fmt::format("{}; `phongpipe verify` names the register",
+                                  story_.rtl_visits.empty() ? "the RTL shades it in another colour"
+                                                            : story_.rtl_visits));
     }
   }
 
@@ -382,6 +384,7 @@ ordered_json pixel_json(const PixelStory& story) {
   }
   json["largest_part"] = kErrorParts[error.largest_part()].name;
   json["depth_test"] = story.depth_test;
+  json["rtl_agrees"] = story.rtl_agrees();
   for (const PixelVisit& v : story.visits) {
     json["visits"].push_back(
         {{"light", v.light},

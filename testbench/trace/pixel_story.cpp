@@ -309,9 +309,10 @@ Exits exits_of(const FrameSetup& frame, const PixelStory& story, SimulationOptio
 }  // namespace
 
 bool PixelStory::rtl_agrees() const {
-  return std::all_of(visits.begin(), visits.end(), [](const PixelVisit& visit) {
-    return visit.rtl_color.value_or(visit.color) == visit.color;
-  });
+  return rtl_visits.empty() &&
+         std::all_of(visits.begin(), visits.end(), [](const PixelVisit& visit) {
+           return visit.rtl_color.value_or(visit.color) == visit.color;
+         });
 }
 
 void require_covered(const PreparedFrame& frame, const Framebuffer& framebuffer, int x, int y) {
@@ -364,23 +365,22 @@ void add_cycles(const PreparedFrame& frame, const RtlLibrary& library,
     };
   };
   Child rtl(simulate_with(&library)), systemc(simulate_with(nullptr));
-  const auto wait_for = [&story](Child& child, const char* name) {
-    auto [exits, failure] = from_bytes<Exits>(child.get());
-    if (exits.size() != story.visits.size()) {
-      throw ToolError(fmt::format(
-          "{} delivers pixel {},{} {} times, the model {}{}; `phongpipe verify` tells where they "
-          "differ",
-          name, story.x, story.y, exits.size(), story.visits.size(),
-          failure.empty() ? "" : fmt::format(" ({})", failure)));
-    }
-    return exits;
+  const auto wait_for = [](Child& child) { return from_bytes<Exits>(child.get()); };
+  const auto times = [&story](const char* name, const Exits& found) {
+    return fmt::format("{} delivers the pixel {} times, the model {}{}", name, found.first.size(),
+                       story.visits.size(),
+                       found.second.empty() ? "" : fmt::format(" ({})", found.second));
   };
-  const std::vector<Exit> from_systemc = wait_for(systemc, "SystemC");
-  const std::vector<Exit> from_rtl = wait_for(rtl, "the RTL");
+  const Exits from_systemc = wait_for(systemc), from_rtl = wait_for(rtl);
+  if (from_systemc.first.size() != story.visits.size()) {
+    throw ToolError(times("SystemC", from_systemc));
+  }
+  if (from_rtl.first.size() != story.visits.size()) story.rtl_visits = times("the RTL", from_rtl);
   for (std::size_t i = 0; i < story.visits.size(); ++i) {
     PixelVisit& visit = story.visits[i];
-    visit.systemc_cycle = from_systemc[i].first;
-    std::tie(visit.rtl_cycle, visit.rtl_color) = from_rtl[i];
+    visit.systemc_cycle = from_systemc.first[i].first;
+    if (i >= from_rtl.first.size()) continue;
+    std::tie(visit.rtl_cycle, visit.rtl_color) = from_rtl.first[i];
   }
 }
 

@@ -89,6 +89,7 @@ struct PixelStory {
   ErrorSplit error;
   bool depth_test = true;
   std::vector<PixelVisit> visits;  // in the order of the pipeline
+  std::string rtl_visits;          // how often the RTL delivers the pixel, if it is not as often
   ScreenTriangle whole;
   std::optional<ScreenTriangle> piece;  // that covers the pixel, if the triangle was split
   Material material;
@@ -116,7 +117,7 @@ PixelStory tell_story(const PreparedFrame& frame, const Hardware& hardware, cons
                       int x, int y);
 
 // Simulates the frame in SystemC and with the RTL, each in a process of its own, and adds the
-// cycles of the visits. Throws ToolError if an implementation has other visits.
+// cycles of the visits. Throws ToolError if SystemC has other visits.
 void add_cycles(const PreparedFrame& frame, const RtlLibrary& library,
                 const SimulationOptions& simulation, PixelStory& story);
 
