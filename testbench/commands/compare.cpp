@@ -102,7 +102,7 @@ void compare_by_curves(const CompareCommandOptions& options) {
     json.push_back(curve_json(curve));
     csv += fmt::format("# {}\n{}", curve.title, curve_csv(curve));
     if (options.out.empty()) continue;
-    std::filesystem::create_directories(options.out);
+    make_folder(options.out);
     files.insert(files.end(), {options.out / (name + ".csv"), options.out / (name + ".svg")});
     write_text(files[files.size() - 2], curve_csv(curve));
     write_text(files.back(), svg(chart_of(curve)));

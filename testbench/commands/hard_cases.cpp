@@ -43,10 +43,11 @@ std::filesystem::path sheet_file(const HardCaseOptions& options) {
 
 // All cases with their pictures, and the contact sheet.
 void write_pages(const HardCaseOptions& options, const std::vector<HardCaseResult>& results) {
-  std::filesystem::create_directories(options.out);
+  make_folder(options.out);
   VerificationPage page("Hard cases", "case");
   for (const HardCaseResult& result : results) {
-    page.add(result.hard_case.name, request_of(result.hard_case), as_run(result));
+    const HardCase& c = result.hard_case;
+    page.add(c.name, c.hardware, command_of(c), as_run(result));
     if (!result.verification) continue;
     std::string name = result.hard_case.name;
     std::replace(name.begin(), name.end(), '/', '-');

@@ -94,7 +94,7 @@ class Verifier {
       progress_.clear();
       show(scene, result, name, failure);
       if (!options_.pictures.empty()) {
-        page_.add(scene.source, request_of(scene), summary_of(result));
+        add_to_page(scene, summary_of(result));
         page_.add_pictures(picture_files(options_.pictures, name));
         if (timeline_is_beside_page()) {
           page_.add_picture("timeline", timeline_picture_file());
@@ -108,7 +108,7 @@ class Verifier {
       const bool input = dynamic_cast<const InputError*>(&error) != nullptr;
       status_ = std::max(status_, input ? kBadInput : kToolFailed);
       tell("phongpipe: " + printable(error.what()));
-      if (input) page_.add(scene.source, request_of(scene), refused(error.what()));
+      if (input) add_to_page(scene, refused(error.what()));
       results_.push_back(
           {{"scene", scene.source}, {"passed", false}, {"error", printable(error.what())}});
     }
@@ -188,6 +188,10 @@ class Verifier {
   std::filesystem::path page_file() const { return options_.pictures / "verify.html"; }
   std::filesystem::path timeline_picture_file() const {
     return std::filesystem::path(options_.timeline).replace_extension(".svg");
+  }
+  void add_to_page(const Scene& scene, RunResult result) {
+    const RunRequest request = request_of(scene);
+    page_.add(scene.source, request.hardware, command_of(request), std::move(result));
   }
   RunRequest request_of(const Scene& scene) const {
     return {scene.source, options_.hardware.hardware, options_.hardware.overrides,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "model/files/text_file.h"
 #include "model/scene/input_error.h"
 #include "testbench/cases/guards.h"
 #include "testbench/cases/named_scene.h"
@@ -13,6 +14,18 @@ namespace phongpipe {
 namespace {
 
 constexpr double kAnyTime = 1e9;  // ns a pixel: small scenes have few pixels to spread setup over
+
+RunRequest request_of(const HardCase& hard_case) {
+  RunRequest request;
+  request.scene = hard_case.file.string();
+  request.hardware = hard_case.hardware;
+  request.settings = hard_case.settings;
+  request.options.budget_ns = kAnyTime;
+  request.options.max_error_lsb = hard_case.max_error_lsb;
+  request.options.stall_percent = hard_case.stall_percent;
+  request.options.rtl = RtlToVerify::superset;  // one for many cases
+  return request;
+}
 
 // With one thing changed, without RTL.
 VerificationResult verify_other(const HardCase& hard_case, const std::vector<std::string>& changes,
@@ -96,16 +109,8 @@ void verify_case(HardCaseResult& result, const std::filesystem::path& rtl_source
 
 }  // namespace
 
-RunRequest request_of(const HardCase& hard_case) {
-  RunRequest request;
-  request.scene = hard_case.file.string();
-  request.hardware = hard_case.hardware;
-  request.settings = hard_case.settings;
-  request.options.budget_ns = kAnyTime;
-  request.options.max_error_lsb = hard_case.max_error_lsb;
-  request.options.stall_percent = hard_case.stall_percent;
-  request.options.rtl = RtlToVerify::superset;  // one for many cases
-  return request;
+std::string command_of(const HardCase& hard_case) {
+  return fmt::format("phongpipe verify --hard-cases {} --verbose", hard_case.name);
 }
 
 HardCaseResult run_hard_case(const HardCase& hard_case, const std::filesystem::path& rtl_sources,
@@ -117,6 +122,10 @@ HardCaseResult run_hard_case(const HardCase& hard_case, const std::filesystem::p
     if (hard_case.guard == kRefusal) result.failure = "is not refused";
   } catch (const InputError& error) {
     result.refusal = error.what();
+    // Where the program is installed is of no interest.
+    if (const std::string file = hard_case.file.string(); starts_with(result.refusal, file)) {
+      result.refusal.replace(0, file.size(), hard_case.file.filename().string());
+    }
     if (hard_case.guard != kRefusal) {
       result.failure = "is refused: " + result.refusal;
     } else if (result.refusal.find(hard_case.refused) == std::string::npos) {

@@ -33,7 +33,7 @@ HardCaseResult run_hard_case(const HardCase& hard_case, const std::filesystem::p
 // the message tells how if that is not as other runs pass.
 RunResult as_run(const HardCaseResult& result);
 
-// What `verify` is asked to do for it.
-RunRequest request_of(const HardCase& hard_case);
+// The command that runs the case alone.
+std::string command_of(const HardCase& hard_case);
 
 }  // namespace phongpipe

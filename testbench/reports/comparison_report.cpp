@@ -376,7 +376,7 @@ std::vector<std::filesystem::path> write_comparison_page(const Comparison& compa
                                                          const std::string& render,
                                                          const std::filesystem::path& folder) {
   const std::string scene = name_of(comparison);
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   PageContent page;
   page.title = scene + ": every shading method, its accuracy and its time";
   page.row = "method";

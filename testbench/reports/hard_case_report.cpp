@@ -66,7 +66,7 @@ nlohmann::ordered_json hard_case_json(const HardCaseResult& result) {
                                  {"must", c.must},
                                  {"guard", c.guard},
                                  {"guarded", result.guarded},
-                                 {"command", command_of(request_of(c))}};
+                                 {"command", command_of(c)}};
   if (!result.refusal.empty()) json["refusal"] = printable(result.refusal);
   if (!result.verification) return json;
   json["max_error_lsb"] = result.verification->accuracy.total.largest_lsb;

@@ -31,12 +31,13 @@ void VerificationPage::add_picture(const std::string& label, const std::filesyst
   pictures_[runs_.back().identity].push_back({label, {}, file.filename().string()});
 }
 
-void VerificationPage::add(const std::string& name, const RunRequest& request, RunResult result) {
+void VerificationPage::add(const std::string& name, const std::string& hardware,
+                           const std::string& command, RunResult result) {
   StoredRun& run = runs_.emplace_back();
   run.identity = fmt::format("{:08}", runs_.size());  // the order in which they were given
-  run.command = command_of(request);
+  run.command = command;
   run.scene = name;
-  run.hardware = request.hardware;
+  run.hardware = hardware;
   run.result = std::move(result);
 }
 

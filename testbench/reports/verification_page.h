@@ -19,7 +19,8 @@ class VerificationPage {
       : title_(std::move(title)), row_(std::move(row)) {}
 
   // `name`: of the scene.
-  void add(const std::string& name, const RunRequest& request, RunResult result);
+  void add(const std::string& name, const std::string& hardware, const std::string& command,
+           RunResult result);
   // Of the last result: the files of WrittenPictures, which belong into the page's folder.
   void add_pictures(const std::array<std::filesystem::path, 3>& files);
   // One more picture of it, a file in the page's folder.

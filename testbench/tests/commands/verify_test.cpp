@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "testbench/system/installation.h"
 #include "testbench/system/process.h"
 #include "testbench/tests/commands/program.h"
 
@@ -114,7 +115,12 @@ TEST_F(Program, VerifiesHardCases) {
   // The cases are told of on demand, not above the graph.
   const std::string summary = page.substr(0, page.find("<main"));
   EXPECT_EQ(summary.find("negative-shininess"), std::string::npos) << summary;
-  EXPECT_NE(page.find("table/negative-shininess: refused, as expected: "), std::string::npos);
+  EXPECT_NE(page.find("table/negative-shininess: refused, as expected: negative-shininess.toml:"),
+            std::string::npos);
+  for (const std::string& text : {page, output.text, read_whole_file(file("hard.json"))}) {
+    EXPECT_EQ(text.find(installation().hard_cases.string()), std::string::npos)
+        << "where the program is installed";
+  }
   expect_refused({"verify"}, "give scenes, or --hard-cases");
   expect_refused({"verify", "--hard-cases", "nowhere"}, "nowhere: no hard case");
   expect_refused({"verify", "--hard-cases", "--set", "anchor=span"}, "its scene and settings");
