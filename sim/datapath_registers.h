@@ -99,7 +99,8 @@ class DatapathRegisters : public ClockedDatapath {
   // The span in a stage before the lanes of a wide datapath: -kLaneStages takes the input, -1 is
   // before stage 0.
   const std::optional<Span>& before_lanes(int stage) const {
-    return before_lanes_[static_cast<std::size_t>(stage + kLaneStages)];
+    const int place = stage + kLaneStages;
+    return before_lanes_[static_cast<std::size_t>(place)];
   }
   // Pixels that are known whole and wait in the queue, without the one at the output.
   std::size_t queued() const { return queue_.size(); }

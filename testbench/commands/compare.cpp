@@ -77,6 +77,7 @@ bool is_told(const CompareCommandOptions& options) {
 // What there is besides what is told.
 void tell_more(const std::vector<std::filesystem::path>& files) {
   std::vector<std::string> names;
+  names.reserve(files.size());
   for (const std::filesystem::path& file : files) names.push_back(printable(file.string()));
   if (!names.empty()) print_or_throw(fmt::format("  more     {}\n", fmt::join(names, ", ")));
 }
