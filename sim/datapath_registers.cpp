@@ -81,7 +81,7 @@ void DatapathRegisters::Stepper::set_width(int register_width, int digits) {
 }
 
 void DatapathRegisters::Stepper::load(const SeriesStart& start, bool stepping) {
-  now.load({start.v, stepping ? start.d1 : 0, stepping ? start.d2 : 0});
+  now.load(start.stepped(stepping));
   const std::int64_t v = wrap_to(now.v(), width);
   pixel = {v, now.d1(), now.d2(), v, v, start, {}};
   set_serial_words();
@@ -237,7 +237,7 @@ static Span span_of_lane(const Span& span, int k, int lanes) {
   }
   own.row.length = pixels_of_lane(span.row.length, 0, lanes);
   const auto start = [&](const SeriesStart& series, bool stepping) {
-    return lane_start(stepping ? series : SeriesStart{series.v, 0, 0}, k, lanes);
+    return lane_start(series.stepped(stepping), k, lanes);
   };
   for (SeriesStart& series : own.diffuse) series = start(series, span.step_diffuse);
   own.specular = start(span.specular, span.step_specular);

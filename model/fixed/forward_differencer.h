@@ -37,6 +37,9 @@ struct SeriesStart {
   std::int64_t v = 0;   // value at the first pixel
   std::int64_t d1 = 0;  // difference to the next pixel
   std::int64_t d2 = 0;  // difference of the differences, 2 T5
+
+  // What the datapath adds from pixel to pixel: nothing if the series does not step along the span.
+  SeriesStart stepped(bool stepping) const { return stepping ? *this : SeriesStart{v, 0, 0}; }
 };
 
 // Start of the pixels `lane`, lane + lanes, lane + 2 lanes … of a span, which steps by `lanes`.

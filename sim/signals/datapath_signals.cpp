@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "sim/signals/block_signals.h"
 
@@ -31,12 +32,6 @@ double DatapathSignal::real(std::int64_t bits) const {
 
 namespace {
 
-void sort_by_stage(std::vector<DatapathSignal>& signals) {
-  std::stable_sort(
-      signals.begin(), signals.end(),
-      [](const DatapathSignal& a, const DatapathSignal& b) { return a.stage < b.stage; });
-}
-
 // Of a datapath, or of a lane of a wide one.
 std::vector<DatapathSignal> signals_of_lane(const DatapathConfiguration& configuration) {
   std::vector<DatapathSignal> all = control_signals(configuration);
@@ -46,14 +41,11 @@ std::vector<DatapathSignal> signals_of_lane(const DatapathConfiguration& configu
   append(series_signals(configuration));
   append(color_signals(configuration));
   if (configuration.kind == DatapathKind::serial) append(digit_signals(configuration));
-  sort_by_stage(all);
   return all;
 }
 
-}  // namespace
-
-std::vector<DatapathSignal> datapath_signals(const DatapathConfiguration& configuration) {
-  if (configuration.lanes() == 1) return signals_of_lane(configuration);
+// The registers before the lanes, and those of each lane.
+std::vector<DatapathSignal> wide_signals(const DatapathConfiguration& configuration) {
   std::vector<DatapathSignal> all = lane_start_signals(configuration);
   for (int k = 0; k < configuration.lanes(); ++k) {
     for (DatapathSignal& signal : signals_of_lane(configuration)) {
@@ -71,7 +63,17 @@ std::vector<DatapathSignal> datapath_signals(const DatapathConfiguration& config
       all.push_back(std::move(signal));
     }
   }
-  sort_by_stage(all);
+  return all;
+}
+
+}  // namespace
+
+std::vector<DatapathSignal> datapath_signals(const DatapathConfiguration& configuration) {
+  std::vector<DatapathSignal> all =
+      configuration.lanes() == 1 ? signals_of_lane(configuration) : wide_signals(configuration);
+  std::stable_sort(all.begin(), all.end(), [](const DatapathSignal& a, const DatapathSignal& b) {
+    return a.stage < b.stage;
+  });
   return all;
 }
 

@@ -12,16 +12,16 @@ class LaneStartTable : public SignalList {
     for (int c = 0; c < f_.channels && f_.diffuse; ++c) {
       add_series(fmt::format("channel[{}].diffuse_lanes", c), "LSB", f_.diffuse_width(),
                  f_.diffuse_fraction_bits, [c](const Span& span) {
-                   return stepped(span.diffuse[static_cast<std::size_t>(c)], span.step_diffuse);
+                   return span.diffuse[static_cast<std::size_t>(c)].stepped(span.step_diffuse);
                  });
     }
     if (f_.specular) {
       add_series("specular_lanes", "address", f_.specular_width(), f_.specular_fraction_bits,
-                 [](const Span& span) { return stepped(span.specular, span.step_specular); });
+                 [](const Span& span) { return span.specular.stepped(span.step_specular); });
     }
     if (f_.has_gate_series()) {
       add_series("gate_lanes", "LSB", f_.diffuse_width(), f_.diffuse_fraction_bits,
-                 [](const Span& span) { return stepped(span.gate, span.step_diffuse); });
+                 [](const Span& span) { return span.gate.stepped(span.step_diffuse); });
     }
     if (f_.depth_cue) {
       add_series("cue_lanes", "", kCueWidth, kCueFraction, [](const Span& span) {
@@ -31,10 +31,6 @@ class LaneStartTable : public SignalList {
   }
 
  private:
-  static SeriesStart stepped(const SeriesStart& start, bool stepping) {
-    return stepping ? start : SeriesStart{start.v, 0, 0};
-  }
-
   // `number`: of the stage, in RTL's names. `value`: of the span in it.
   template <typename Value>
   DatapathSignal& add_start(int number, const std::string& scope, const std::string& name,

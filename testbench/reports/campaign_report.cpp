@@ -82,9 +82,9 @@ void add_front(std::string& text, const Store& store) {
       lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(most) - 1, lines.end() - 1);
       if (fronts.size() == 1) lines.insert(lines.end() - 1, "…");
     }
-    text += fmt::format("  front    {}least error for its time at {} point{}{}:\n",
+    text += fmt::format("  front    {}least error for its time at {}{}:\n",
                         fronts.size() > 1 ? printable(scene_text(table, front.front())) + ": " : "",
-                        points, points == 1 ? "" : "s",
+                        count_text(points, "point"),
                         front.size() > points ? fmt::format(", by {} runs", front.size()) : "");
     for (const std::string& line : lines) text += fmt::format("           {}\n", line);
   }
